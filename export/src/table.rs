@@ -58,11 +58,14 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         Column::new("mass on the table", "kg", |s| Some(s.mass_kg.table)),
         Column::new("mass on the floor", "kg", |s| Some(s.mass_kg.floor)),
         Column::new("mass in the air", "kg", |s| Some(s.mass_kg.air)),
+        Column::new("height of the highest drop over its rim", "m", |s| {
+            s.highest_drop_m
+        }),
     ];
     let flasks: Vec<&String> = first.mass_kg.flasks.keys().collect();
     for &flask in &flasks {
         let key = || flask.clone();
-        let (a, b, c) = (key(), key(), key());
+        let (a, b, c, d) = (key(), key(), key(), key());
         columns.extend([
             Column::new(&format!("mass in flask {flask}"), "kg", move |s| {
                 s.mass_kg.flasks.get(&a).copied()
@@ -74,6 +77,11 @@ pub fn columns(first: &Sample) -> Vec<Column> {
                 &format!("mass above the rim of flask {flask}"),
                 "kg",
                 move |s| s.above_rim_kg.get(&c).copied(),
+            ),
+            Column::new(
+                &format!("surface of the liquid in flask {flask}"),
+                "m2",
+                move |s| s.surface_m2.get(&d).copied(),
             ),
         ]);
     }

@@ -343,6 +343,11 @@ impl Experiment for Laboratory {
             neighbour_rebuilds: measured.list_rebuilds.into(),
             left_kg: by_flask(scene, &departed.left),
             above_rim_kg: by_flask(scene, &departed.above_rim),
+            surface_m2: by_flask(scene, &measured.surfaces)
+                .into_iter()
+                .filter(|(_, area)| *area > 0.0)
+                .collect(),
+            highest_drop_m: departed.highest,
             heat: measured.heat.map(|heat| of_heat(scene, &heat, &start)),
         })
     }

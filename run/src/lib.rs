@@ -4,6 +4,7 @@
 mod action;
 pub mod arguments;
 pub mod audible;
+mod boiling;
 pub mod budget;
 mod camera;
 pub mod choices;
@@ -48,6 +49,7 @@ pub mod track;
 pub mod units;
 
 pub use action::Action;
+pub use boiling::boiling;
 pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The state at one moment of a run.
-#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, JsonSchema, Serialize, Deserialize)]
 pub struct Sample {
     /// Simulated time, s.
     pub t_s: f64,
@@ -27,6 +27,14 @@ pub struct Sample {
     /// By flask: mass above its rim's plane, in no flask, that left it last, kg.
     #[serde(default)]
     pub above_rim_kg: BTreeMap<String, f64>,
+    /// By flask that holds liquid: area of its inside at the height that the liquid would have at rest, upright and without
+    /// bubbles, m².
+    #[serde(default)]
+    pub surface_m2: BTreeMap<String, f64>,
+    /// Height of the highest liquid in no flask over the rim of the flask that it left last, m: particles and drops of bubbles.
+    /// `None` where nothing is above its rim.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub highest_drop_m: Option<f64>,
     /// Temperature and composition, where heat is modelled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<HeatSample>,
@@ -63,7 +71,7 @@ impl MassByPlace {
 }
 
 /// Temperature and composition at one moment. Means are by mass.
-#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, JsonSchema, Serialize, Deserialize)]
 pub struct HeatSample {
     /// Mean temperature, °C.
     pub temperature_mean_c: f64,
@@ -95,7 +103,7 @@ pub struct HeatSample {
 
 /// Where the enthalpy is that there was at the start: initial + exchanged =
 /// held + steam. Relative to the pure liquids at 25 °C.
-#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, JsonSchema, Serialize, Deserialize)]
 pub struct LedgerSample {
     /// Enthalpy at the start, J.
     pub initial_j: f64,

@@ -8,7 +8,7 @@ pub use departures::{Departed, Departures};
 pub use heat::{AIR_OVER_STEAM, HeatMeasurement, Ledger, Superheat, measure as measure_heat};
 
 use crate::flask::Region;
-use crate::scene::Scene;
+use crate::scene::{Flask, Scene};
 use crate::solver::{LYING, SolverState};
 use crate::world::{World, WorldError};
 use glam::{DVec3, Vec3};
@@ -34,6 +34,9 @@ pub struct Measurement {
     pub heat: Option<HeatMeasurement>,
     /// Mass in each flask, kg.
     pub in_flasks: Vec<f64>,
+    /// Area of each flask's inside at the height that its liquid would have at rest, upright and without bubbles, m²; 0 of an empty
+    /// one.
+    pub surfaces: Vec<f64>,
     /// Mass on the table beside the flasks, kg.
     pub on_table: f64,
     /// Mass on the floor, kg.
@@ -87,6 +90,7 @@ impl World {
             kinetic_energy: kinetic_energy(state, mass),
             heat: measure_heat(solver.parameters(), state),
             in_flasks: vec![0.0; flasks],
+            surfaces: self.surfaces(state),
             on_table: 0.0,
             on_floor: 0.0,
             in_air: 0.0,
@@ -121,6 +125,21 @@ impl World {
                 measured.in_air += mass;
             }
         }
+    }
+
+    /// By flask, the surface of its liquid, m².
+    fn surfaces(&self, state: &SolverState) -> Vec<f64> {
+        let flasks = &self.scene().flasks;
+        let mut volumes = vec![0.0; flasks.len()];
+        for slot in 0..state.positions.len() {
+            if let Some(flask) = state.flask_of(slot) {
+                volumes[flask] += state.volume_of(slot);
+            }
+        }
+        let one = self.solver().parameters().particle_volume();
+        let surface =
+            |(flask, volume): (&Flask, f64)| flask.profile.surface_for_volume(one * volume);
+        flasks.iter().zip(volumes).map(surface).collect()
     }
 
     /// Whether a particle is on the wrong side of a wall: not in the flask

@@ -44,6 +44,9 @@ use assemble::assemble;
 struct Replayed {
     #[serde(flatten)]
     report: Report,
+    /// Lines of the summary on how violently it boiled.
+    #[serde(skip)]
+    boiling: Vec<String>,
     report_json: String,
     report_html: String,
     /// `None` of a run without attempts.
@@ -245,6 +248,7 @@ fn replay(
     Ok(Replayed {
         #[cfg(feature = "class")]
         kept: record.keep(&folder, &report.attempts)?,
+        boiling: boiling(&report, &texts),
         report: report.without_series(),
         report_json: place(REPORT_JSON),
         report_html: place(REPORT_HTML),
@@ -333,6 +337,14 @@ fn film_name(index: usize) -> &'static str {
     if index == 0 { FILM } else { FILM_TEMPERATURE }
 }
 
+/// How violently a run boiled, in lines.
+fn boiling(report: &Report, texts: &Texts) -> Vec<String> {
+    let said = texts.boiling(&report.boiling).into_iter();
+    let line = said.map(|it| format!("{}: {} ({})", it.name, it.value, it.note));
+    // On a terminal such spaces help nobody who searches.
+    line.map(|it| it.replace('\u{a0}', " ")).collect()
+}
+
 fn describe(done: &Replayed) -> String {
     let out = Path::new(&done.report_html)
         .parent()
@@ -360,8 +372,9 @@ fn describe(done: &Replayed) -> String {
             report.nan_particles
         ),
         format!("at the end: {}", places.join(", ")),
-        format!("state {}", report.state_hash),
     ];
+    lines.extend(done.boiling.iter().cloned());
+    lines.push(format!("state {}", report.state_hash));
     lines.extend(report.recording.iter().map(RecordingStatement::text));
     for ((attempt, score), number) in report.attempts.iter().zip(&report.score).zip(1..) {
         let scene = in_a_line(&attempt.scene);

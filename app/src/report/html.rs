@@ -28,7 +28,7 @@ impl Report {
                 details.solver open[!told] {
                     summary { h2 { "The solver's figures" } }
                     @if told { p.lead { (self.run()) } }
-                    (self.figures())
+                    (self.figures(texts))
                     (self.whereabouts())
                     (self.plots())
                     (self.statements())
@@ -62,7 +62,7 @@ impl Report {
         }
     }
 
-    fn figures(&self) -> Markup {
+    fn figures(&self, texts: &Texts) -> Markup {
         let pace = self.wall_s / self.simulated_s.max(f64::MIN_POSITIVE);
         html! {
             section.figures aria-label="Figures" {
@@ -98,6 +98,9 @@ impl Report {
                     (figure("ledger_closure", "Ledger",
                         &format!("{:.1e}", ledger.closure.abs()),
                         "enthalpy that does not add up at the end, relative", ledger.closure.abs() > 1e-4))
+                }
+                @for said in texts.boiling(&self.boiling) {
+                    (figure(said.key, &said.name, &said.value, &said.note, false))
                 }
                 (figure("frames", "Frames",
                     &grouped(self.frames), "of the simulation's fixed clock", false))

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::Verdict;
-use vitriol_lesson::{Attempt, Rubric, Score, Texts};
+use vitriol_lesson::{Attempt, Boiling, Rubric, Score, Texts};
 use vitriol_run::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_sim::scene::Scene;
 
@@ -113,6 +113,10 @@ pub struct Report {
     /// the run's samples, times the time between them. Empty where nothing boils.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub boiling_particle_seconds: BTreeMap<String, f64>,
+    /// How violently it boiled, in figures that do not grow with its length; of the scene that `series` is of. Absent where nothing
+    /// was to be said, and in reports of older versions.
+    #[serde(default, skip_serializing_if = "Boiling::is_empty")]
+    pub boiling: Boiling,
     /// The film, where one was made: of the liquid, unless asked otherwise.
     pub film: Option<FilmStatement>,
     /// The film coloured by temperature, where heat is modelled.

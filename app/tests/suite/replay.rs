@@ -213,6 +213,13 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     let boiling = &report.boiling_particle_seconds;
     assert!((boiling[FLASK] - 90.0 * 2.0).abs() < 9.01, "{boiling:?}");
     assert_eq!(boiling["erlenmeyer"], 0.0);
+    // 10 mg of steam a second, 1.7 m³ a kilogram, through the 50 cm² of the hotter flask.
+    let violent = report.boiling;
+    assert!((violent.most_steam_m_s.unwrap() - 0.003_399).abs() < 1e-6);
+    assert!((violent.most_gas_m3.unwrap() - 8e-6).abs() < 1e-9);
+    assert!((violent.highest_drop_m.unwrap() - 0.12).abs() < 1e-6);
+    // Nothing was found to be poured.
+    assert!(violent.thrown_first_kg.is_none());
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert_eq!(page.matches("<video").count(), 2);
     // Films are heard: each has a track of Opus, and no player is told to be silent.
@@ -228,6 +235,10 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
         "Above the boiling point",
         "foam at the surface",
         "evaporated",
+        "Most steam through the surface",
+        "0.34\u{a0}cm/s",
+        "8.0\u{a0}mL",
+        "12\u{a0}cm",
     ] {
         assert!(page.contains(part), "{part} is missing");
     }
@@ -283,6 +294,7 @@ fn a_report_of_attempts_is_read_again() {
     let json = serde_json::to_value(&plain).unwrap();
     // Where nobody looked, nothing is said, and readers of older reports see what they know.
     assert!(json.get("attempts").is_none() && json.get("score").is_none());
+    assert!(json.get("boiling").is_none());
     assert!(!folder.path().join("incidents.csv").exists());
     let page = plain.to_html(&Texts::english().unwrap());
     assert!(page.contains("<details class=\"solver\" open") && !page.contains("What happened"));

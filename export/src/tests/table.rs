@@ -30,7 +30,9 @@ fn sample(t_s: f64) -> Sample {
         },
         neighbour_rebuilds: 0,
         left_kg: flasks.clone(),
-        above_rim_kg: flasks,
+        above_rim_kg: flasks.clone(),
+        surface_m2: flasks,
+        highest_drop_m: None,
         heat: None,
     }
 }

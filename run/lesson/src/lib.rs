@@ -5,6 +5,7 @@
 //! [`Procedure`] judges whether it was.
 
 mod attempt;
+mod boiling;
 mod event;
 mod finder;
 mod language;
@@ -20,12 +21,14 @@ mod units;
 mod words;
 
 pub use attempt::Attempt;
+pub use boiling::{Boiling, BoilingFigure};
 pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
 pub use finder::{Dipped, Finder, Seen};
 pub use language::{Language, LanguageError};
 pub use limits::Limits;
+pub use mixing::layered;
 pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Criterion, Evidence, LeftOut, Score, ScoreLine};

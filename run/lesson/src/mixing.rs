@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use vitriol_sim::scene::Scene;
+
 use crate::skin::CORROSIVE;
 use crate::{Attempt, Incident, Pour, What};
 
@@ -11,6 +13,19 @@ const DIFFERENCE: f64 = 0.1;
 /// Whether liquid of mass fraction `acid` is acid, and liquid of mass fraction `water` is thinner.
 fn dilutes(acid: f64, water: f64) -> bool {
     acid >= CORROSIVE && acid >= water + DIFFERENCE
+}
+
+/// The name of a flask in which acid and water, or thinner acid, lie on one another at the scene's start, the first of them.
+pub fn layered(scene: &Scene) -> Option<&str> {
+    let liquids = &scene.liquids;
+    let is_on_other = |flask: usize, acid: f64| {
+        let mut others = liquids.iter().filter(|other| other.flask == flask);
+        others.any(|other| dilutes(acid, other.acid_fraction))
+    };
+    let acid = liquids
+        .iter()
+        .find(|liquid| is_on_other(liquid.flask, liquid.acid_fraction))?;
+    Some(scene.flasks.get(acid.flask)?.name.as_str())
 }
 
 impl Pour {
@@ -29,6 +44,12 @@ impl Attempt {
     /// Pours in which acid and water came together.
     pub(crate) fn mixing(&self) -> impl Iterator<Item = &Pour> {
         self.pours.iter().filter(|pour| pour.mixes())
+    }
+
+    /// When acid and water first came together by a pour, simulated time of the run, s, and the flask in which they did.
+    pub fn first_contact(&self) -> Option<(f64, &str)> {
+        let pour = self.mixing().next()?;
+        Some((pour.t_s, pour.into.as_deref()?))
     }
 
     /// Whether acid and water can be mixed: two flasks hold acid and something thinner at the start, or a pour mixed them anyhow.

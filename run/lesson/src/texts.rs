@@ -94,7 +94,7 @@ macro_rules! section {
 
 section!(Number: decimal);
 section!(Unit: millilitres litres millilitres_a_second seconds minutes hours celsius percent metres_a_second
-    centimetres);
+    centimetres centimetres_a_second milligrams grams);
 section!(Amount: water acid);
 section!(Join: two);
 section!(Pour: acid_into_water plain beside nothing);
@@ -104,6 +104,7 @@ section!(Cause: pouring boiling breaking letting_go splashing mixing heating unk
 section!(Effect: water_into_acid too_fast heat_at_once heat_within corrosive irritant rinse protected wipe);
 section!(End: holds holds_at hottest hottest_outside broken_off);
 section!(Well: slowly cool kept clean skin glass);
+section!(BoilingTexts: steam steam_note gas gas_note thrown thrown_note drop drop_note nuclei nuclei_note);
 section!(CriterionNames: right_order poured_slowly stayed_cool nothing_thrown_out nothing_spilt nothing_on_skin glass_whole);
 section!(Rule: right_order up_to nothing skin glass);
 section!(Evidence: too_little too_little_acid mean);
@@ -127,6 +128,7 @@ pub struct Texts {
     pub(crate) effect: Effect,
     pub(crate) end: End,
     pub(crate) well: Well,
+    pub(crate) boiling: BoilingTexts,
     pub(crate) criterion: CriterionNames,
     pub(crate) rule: Rule,
     pub(crate) evidence: Evidence,

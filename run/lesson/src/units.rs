@@ -54,6 +54,25 @@ impl Texts {
         self.unit.centimetres.fill(&[("number", &whole)])
     }
 
+    /// m as cm.
+    pub(crate) fn length(&self, m: f64) -> String {
+        self.said(&self.unit.centimetres, 100.0 * m)
+    }
+
+    /// m/s as cm/s.
+    pub(crate) fn slow_speed(&self, m_s: f64) -> String {
+        self.said(&self.unit.centimetres_a_second, 100.0 * m_s)
+    }
+
+    /// kg as mg or g.
+    pub(crate) fn mass(&self, kg: f64) -> String {
+        if kg < 1e-3 {
+            self.said(&self.unit.milligrams, kg * 1e6)
+        } else {
+            self.said(&self.unit.grams, kg * 1e3)
+        }
+    }
+
     /// A volume and the name of its liquid.
     pub(crate) fn amount(&self, m3: f64, acid: f64) -> String {
         let volume = self.volume(m3);
@@ -109,6 +128,10 @@ mod tests {
         assert_eq!(plain(texts.temperature(-0.2)), "0 °C");
         assert_eq!(plain(texts.fraction(0.9642)), "96 %");
         assert_eq!(plain(texts.height(0.4549)), "45 cm");
+        assert_eq!(plain(texts.length(0.0123)), "1.2 cm");
+        assert_eq!(plain(texts.slow_speed(0.114)), "11 cm/s");
+        assert_eq!(plain(texts.mass(21.4e-6)), "21 mg");
+        assert_eq!(plain(texts.mass(1.26e-3)), "1.3 g");
         assert_eq!(plain(texts.amount(3.12e-6, 0.004)), "3.1 mL of water");
         assert_eq!(plain(texts.amount(3.12e-6, 0.19)), "3.1 mL of 19 % acid");
     }

@@ -274,6 +274,16 @@ impl Profile {
         Some(high)
     }
 
+    /// Area of the level surface of `volume` m³ of liquid at rest, m²: the mouth's where it does not fit, 0 without liquid.
+    pub fn surface_for_volume(&self, volume: f64) -> f64 {
+        if volume <= 0.0 {
+            return 0.0;
+        }
+        let level = self.level_for_volume(volume);
+        let radius = level.map_or(self.mouth_radius(), |level| self.inner_radius(level));
+        std::f64::consts::PI * radius * radius
+    }
+
     /// Volume of the glass, m³; infinite where its sizes' cubes are no numbers.
     pub fn glass_volume(&self) -> f64 {
         let volume = outline::volume(&self.outer) - self.capacity();

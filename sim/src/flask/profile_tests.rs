@@ -16,11 +16,16 @@ fn volumes_are_those_of_solids_of_revolution() {
     let level = beaker().level_for_volume(150e-6).unwrap();
     assert!((level - 0.002 - 150e-6 / cylinder).abs() < 1e-12);
     assert_eq!(beaker().level_for_volume(1.0), None);
+    for (volume, area) in [(150e-6, cylinder), (1.0, cylinder), (0.0, 0.0)] {
+        assert!((beaker().surface_for_volume(volume) - area).abs() < 1e-12);
+    }
 
     let cone = Profile::new(&[[0.0, 0.0], [0.1, 0.05]], 0.002).unwrap();
     let exact = PI / 3.0 * 0.05f64.powi(2) * 0.1;
     assert!((cone.capacity() / exact - 1.0).abs() < 1e-12);
     assert!((cone.volume_below(0.052) / (exact / 8.0) - 1.0).abs() < 1e-12);
+    let halfway = PI * 0.025f64.powi(2);
+    assert!((cone.surface_for_volume(exact / 8.0) / halfway - 1.0).abs() < 1e-9);
 
     let sphere = glassware::find("round-bottom-250")
         .unwrap()

@@ -5,6 +5,7 @@ use crate::pose::Pose;
 use crate::scene::Flask;
 use crate::solver::SolverState;
 use glam::Vec3;
+use vitriol_shaders::layout::Drops;
 
 /// Follows the particles of a run from look to look.
 ///
@@ -28,6 +29,41 @@ pub struct Departed {
     pub left: Vec<f64>,
     /// Is above the rim's plane now and in no flask, having left this one last.
     pub above_rim: Vec<f64>,
+    /// Height of the highest particle or drop of a bubble that is in no flask, over the middle of the rim of the flask that it left
+    /// last, m of the scene. Heights are over that rim and not over the bench: a stream is never high over the flask that it is
+    /// poured from, however high that is held. `None` where nothing is above its rim.
+    pub highest: Option<f64>,
+}
+
+/// Height of the middle of each flask's rim in the stage, m; `None` of a broken one.
+struct Rims(Vec<Option<f64>>);
+
+impl Rims {
+    fn of(flasks: &[Flask], poses: &[Pose]) -> Self {
+        let rim = |(flask, pose): (&Flask, &Pose)| {
+            let middle = Vec3::Y * flask.profile.rim_height() as f32;
+            (!is_nowhere(pose)).then(|| f64::from(pose.transform_point(middle).y))
+        };
+        Self(flasks.iter().zip(poses).map(rim).collect())
+    }
+
+    /// How far `height` in the stage is above the rim of that flask, m; `None` where it is not.
+    fn above(&self, flask: usize, height: f32) -> Option<f64> {
+        let rim = self.0.get(flask).copied().flatten()?;
+        Some(f64::from(height) - rim).filter(|above| *above > 0.0)
+    }
+
+    /// That of the highest of these drops that are in no flask.
+    fn highest(&self, drops: &[Drops]) -> Option<f64> {
+        let fly = drops
+            .iter()
+            .filter(|drops| drops.mass > 0.0 && drops.memberships >> 16 == 0);
+        let above = fly.filter_map(|drops| {
+            let source = (drops.memberships & 0xffff) as usize;
+            self.above(source.checked_sub(1)?, drops.position[1])
+        });
+        above.reduce(f64::max)
+    }
 }
 
 impl Departures {
@@ -45,6 +81,8 @@ impl Departures {
         self.left.resize(flasks.len(), vec![false; count]);
         self.masses.resize(flasks.len(), 0.0);
         let mut above_rim = vec![0.0; flasks.len()];
+        let rims = Rims::of(flasks, poses);
+        let mut highest = rims.highest(state.drops());
         let flask_from_stage: Vec<Pose> = poses.iter().map(|pose| pose.inverse()).collect();
         for slot in (0..count).filter(|&slot| state.is_present(slot)) {
             let identity = state.tags[slot][1] as usize;
@@ -57,6 +95,10 @@ impl Departures {
                     self.masses[flask] += state.mass_of(slot);
                 }
                 let [x, y, z, _] = state.positions[slot];
+                if now.is_none() {
+                    let above = rims.above(flask, y);
+                    highest = highest.into_iter().chain(above).reduce(f64::max);
+                }
                 let local = flask_from_stage[flask].transform_point(Vec3::new(x, y, z));
                 let is_over = f64::from(local.y) > flasks[flask].profile.rim_height();
                 // A broken flask has no rim any more.
@@ -74,6 +116,7 @@ impl Departures {
                 .map(|(flask, mass)| particle_mass * (mass + state.spray_left(flask)))
                 .collect(),
             above_rim,
+            highest,
         }
     }
 }
@@ -94,9 +137,9 @@ mod tests {
         state
     }
 
-    #[test]
-    fn what_leaves_counts_once_and_what_flies_while_it_does() {
-        let flask = Flask {
+    /// Its rim is 0.102 m high.
+    fn glass() -> Flask {
+        Flask {
             name: "glass".into(),
             profile: Profile::new(&[[0.0, 0.03], [0.1, 0.03]], 0.002).unwrap(),
             mass: 0.1,
@@ -104,7 +147,12 @@ mod tests {
             fixed: true,
             contact_angle: GLASS,
             heater: 0.0,
-        };
+        }
+    }
+
+    #[test]
+    fn what_leaves_counts_once_and_what_flies_while_it_does() {
+        let flask = glass();
         let poses = [flask.stage_from_flask];
         let mut departures = Departures::default();
         let mut look = |particles, slots| {
@@ -124,5 +172,48 @@ mod tests {
         assert_eq!(look([(0.05, 1), (0.2, 0)], [1, 0]), (1.0, 0.5));
         // It leaves again: not counted twice.
         assert_eq!(look([(0.2, 0), (0.2, 0)], [0, 1]), (1.0, 1.0));
+    }
+
+    /// Of particles the one that left the flask counts, and none that is in it or below its rim.
+    #[test]
+    fn the_highest_is_outside_and_above_the_rim() {
+        let flask = glass();
+        let mut departures = Departures::default();
+        let mut look = |heights: [(f32, u32); 2], raised: f32| {
+            let poses = [Pose::from_position(Vec3::Y * raised)];
+            let state = state(heights, [0, 1]);
+            let seen = departures.observe(&state, std::slice::from_ref(&flask), &poses, 0.5);
+            seen.highest
+        };
+        assert_eq!(look([(0.3, 1), (0.4, 0)], 0.0), None);
+        let highest = look([(0.3, 0), (0.4, 0)], 0.0).unwrap();
+        assert!((highest - 0.198).abs() < 1e-6, "{highest}");
+        let raised = look([(0.3, 0), (0.4, 0)], 0.1).unwrap();
+        assert!((raised - 0.098).abs() < 1e-6, "{raised}");
+        assert_eq!(look([(0.1, 0), (0.4, 0)], 0.0), None);
+    }
+
+    #[test]
+    fn drops_count_over_the_rim_of_their_flask() {
+        let drops = |height: f32, mass: f32, memberships: u32| Drops {
+            position: [0.0, height, 0.0],
+            mass,
+            memberships,
+            ..Drops::default()
+        };
+        let rims = Rims(vec![Some(0.1), None]);
+        let within = 1 << 16;
+        let all = [
+            drops(0.25, 0.5, 1),
+            drops(0.2, 0.5, 1),
+            // None is there, in a flask, of a broken flask, of none.
+            drops(0.9, 0.0, 1),
+            drops(0.9, 0.5, 1 | within),
+            drops(0.9, 0.5, 2),
+            drops(0.9, 0.5, 0),
+        ];
+        let highest = rims.highest(&all).unwrap();
+        assert!((highest - 0.15).abs() < 1e-6, "{highest}");
+        assert_eq!(rims.highest(&all[2..]), None);
     }
 }

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use vitriol_lesson::Attempt;
-use vitriol_run::{Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample};
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_lesson::{Attempt, Boiling, layered};
+use vitriol_run::{
+    Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample, boiling,
+};
+use vitriol_sim::scene::{Feature, Preset, Scene};
 
 use super::film_name;
 use crate::cli::{CameraName, ReplayArgs};
@@ -42,6 +44,8 @@ pub(super) fn assemble(
             colour: colour.name().into(),
         })
     };
+    let attempts = Attempt::all(outcome.events);
+    let contact = contact(samples, scene, &attempts);
     Ok(Report {
         layout: LAYOUT,
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
@@ -69,7 +73,11 @@ pub(super) fn assemble(
             .last()
             .map(|s| s.mass_kg.clone())
             .unwrap_or_default(),
-        boiling_particle_seconds: boiling(samples),
+        boiling_particle_seconds: boiling_particles(samples),
+        boiling: Boiling {
+            nuclei_spacing_m: nuclei(scene, seed),
+            ..boiling(samples, scene.models(Feature::Bubbles), contact)
+        },
         film: film(0),
         film_temperature: film(1),
         device: outcome.device,
@@ -79,7 +87,7 @@ pub(super) fn assemble(
         recording: None,
         lesson: Vec::new(),
         scenes_before: observations.scenes_before,
-        attempts: Attempt::all(outcome.events),
+        attempts,
         instructor: said(&outcome.instructions)?,
         score: Vec::new(),
         series: observations.samples,
@@ -96,9 +104,27 @@ fn said(instructions: &[(f64, Action)]) -> Result<Vec<InstructorStatement>, Fail
     Ok(instructions.iter().map(of).collect())
 }
 
+/// When acid and water first came together in the scene of the samples, which is that of the last attempt, s, and in which flask.
+fn contact<'a>(
+    samples: &[Sample],
+    scene: &'a Scene,
+    attempts: &'a [Attempt],
+) -> Option<(f64, &'a str)> {
+    let start = samples.first()?.t_s;
+    let at_start = layered(scene).map(|flask| (start, flask));
+    at_start.or_else(|| attempts.last()?.first_contact())
+}
+
+/// Nuclei of a run's liquid, where bubbles are modelled.
+fn nuclei(scene: &Scene, seed: u64) -> Option<f64> {
+    let drawn = scene.with_nuclei(seed);
+    let physical = drawn.physical.filter(|_| drawn.models(Feature::Bubbles))?;
+    physical.nuclei_spacing
+}
+
 /// Particles above their boiling point times the time since the sample before,
 /// by flask.
-fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
+fn boiling_particles(samples: &[Sample]) -> BTreeMap<String, f64> {
     let mut sums = BTreeMap::new();
     for pair in samples.windows(2) {
         let flasks = pair[1].heat.iter().flat_map(|heat| &heat.boiling_in_flasks);

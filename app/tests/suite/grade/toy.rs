@@ -144,6 +144,8 @@ impl Experiment for Toy {
             neighbour_rebuilds: 0,
             left_kg: BTreeMap::new(),
             above_rim_kg: BTreeMap::new(),
+            surface_m2: BTreeMap::new(),
+            highest_drop_m: None,
             heat: None,
         })
     }

@@ -35,7 +35,10 @@ pub(super) fn heat(t: f64) -> HeatSample {
         temperature_mean_c: 20.0 + 20.0 * t,
         temperature_p99_c: 30.0 + 20.0 * t,
         temperature_max_c: 40.0 + 20.0 * t,
-        temperatures_in_flasks_c: BTreeMap::new(),
+        temperatures_in_flasks_c: BTreeMap::from([
+            ("erlenmeyer".into(), [20.0, 20.0]),
+            (FLASK.into(), [20.0, 40.0 + 20.0 * t]),
+        ]),
         temperatures_of_glass_c: BTreeMap::new(),
         acid_mean: 0.5,
         acid_min: 0.0,
@@ -118,6 +121,9 @@ impl Experiment for Toy {
             neighbour_rebuilds: (t * 40.0) as u64,
             left_kg: BTreeMap::from([("erlenmeyer".into(), poured), (FLASK.into(), 0.0)]),
             above_rim_kg: BTreeMap::from([("erlenmeyer".into(), 0.0), (FLASK.into(), 0.0)]),
+            surface_m2: BTreeMap::from([("erlenmeyer".into(), 0.001), (FLASK.into(), 0.005)]),
+            // Highest at 3 s.
+            highest_drop_m: self.hot.then(|| 0.12 - 0.01 * (t - 3.0).abs()),
             heat: self.hot.then(|| heat(t)),
         })
     }

@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 use proptest::prelude::*;
 use vitriol_lesson::{
     Attempt, Cause, Criterion, Event, Incident, Pour, Rubric, Score, Sentence, Skin, Surface,
-    Texts, Tone, What, sentences,
+    Texts, Tone, What, layered, sentences,
 };
+use vitriol_sim::scene::Scene;
 
 /// Water poured into acid, then acid into water, as a recording has them.
 fn attempts() -> [Attempt; 2] {
@@ -98,6 +99,26 @@ fn the_wrong_order_is_told_with_its_causes() {
         1
     );
     assert!(!said.iter().any(|it| it.tone == Tone::Good), "{said:?}");
+}
+
+/// Acid and water first meet where the first pour that mixes them arrives.
+#[test]
+fn the_first_contact_is_the_first_pour_that_mixes() {
+    let [wrong, mut right] = attempts();
+    assert_eq!(wrong.first_contact(), Some((1.9, "target")));
+    assert_eq!(right.first_contact(), Some((10.2, "target")));
+    // Water into water mixes nothing.
+    right.pours[0].acid = 0.0;
+    assert_eq!(right.first_contact(), None);
+    assert_eq!(untouched().first_contact(), None);
+}
+
+#[test]
+fn acid_and_water_that_lie_on_one_another_are_found() {
+    let mut scene = Scene::builtin("water-into-acid").unwrap();
+    assert_eq!(layered(&scene), None);
+    scene.liquids[0].flask = scene.liquids[1].flask;
+    assert_eq!(layered(&scene), Some("target"));
 }
 
 #[test]

@@ -74,6 +74,7 @@ fn a_dropped_beaker_lies_in_shards() {
         let sample = laboratory.sample(2.0).unwrap();
         let above: f64 = sample.above_rim_kg.values().sum();
         assert!(!breaks || above == 0.0, "{above}");
+        assert!(!breaks || sample.highest_drop_m.is_none(), "{sample:?}");
     }
 }
 
