@@ -204,11 +204,14 @@ fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, g
 /// Most of a particle's liquid that evaporates in a substep.
 const MOST_EVAPORATED: f32 = 0.01;
 
-/// Water that a particle loses to the air in a substep below its boiling point, V0·ρ0; `surface` is its
+/// Water that a particle with that variance loses to the air in a substep below its boiling point, V0·ρ0; `surface` is its
 /// area over 2V0.
-fn evaporated(own: Potential, surface: f32) -> f32 {
+fn evaporated(own: Potential, variance: f32, surface: f32) -> f32 {
     if (surface <= 0.0 || own.temperature <= AMBIENT) { return 0.0; }
-    let flux = evaporation_flux(row_at(own.acid), own.temperature);
+    var shown = Shown(own.acid, own.acid, 1.0);
+    if (SEGREGATION) { shown = shown_of_lamellae(own.acid, variance, own.temperature); }
+    var flux = shown.share * evaporation_flux(row_at(shown.poorest), own.temperature);
+    if (shown.share < 1.0) { flux += (1.0 - shown.share) * evaporation_flux(row_at(shown.richest), own.temperature); }
     return min(2.0 * SPECIFIC_VOLUME * surface * flux * step.time, MOST_EVAPORATED * (1.0 - own.acid) * own.mass);
 }
 
@@ -235,7 +238,7 @@ fn take_up(before: State, i: u32, membership: u32, volume: f32, own: Potential, 
             + heat_from(own, AMBIENT, SURFACE_LOSS * surface);
         taken += gained;
         state.account.heat += gained;
-        if (EVAPORATION) { gone = evaporated(own, surface); }
+        if (EVAPORATION) { gone = evaporated(own, unpack_eddies(eddies[i]).variance, surface); }
     }
     if (SEGREGATION) { state.variance = segregated(i, own, received); }
     state.acid = compensated(state.acid, received.acid / state.content.mass);

@@ -1,12 +1,14 @@
 //! Bubbles of steam for the solver's passes: their number, where they are born, and in which substeps they act.
 
+use crate::fill::split_mix;
+
 /// Bubbles where a scene has them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bubbles {
-    /// Edge of the cube of liquid that has one nucleus, m.
+    /// Edge of the cube of liquid that has one nucleus which grows at a superheat of 1 K, m.
     pub nuclei_spacing: f64,
-    /// How long a bubble lasts at the surface, s.
-    pub foam_time: f64,
+    /// How long a bubble lasts at the surface, s; without it until its film has drained.
+    pub foam_time: Option<f64>,
     /// Most of them at a time; rounded up to whole groups.
     pub most: u32,
     /// Whether the drops that they throw up when they burst are followed.
@@ -21,8 +23,28 @@ const GROUP: u32 = 64;
 /// Steps of the bubbles in a frame: one goes a millimetre or less in it. An even number, as they have two sets of records.
 const STEPS: u32 = 4;
 
-/// Frequency times diameter of bubbles that leave a nucleus in water at 100 °C, m/s.
-const FREQUENCY_DIAMETER: f64 = 0.092;
+/// Time between two bubbles of a nucleus, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at 100 °C, and
+/// bubbles leave with 4 mm (chosen, as they leave what is clean).
+pub const NUCLEUS_WAIT: f64 = 0.004 / 0.092;
+
+/// Excess pressure over an atmosphere of water's vapour 1 K above the boiling point, by Clausius and Clapeyron with 4890 K for the latent
+/// heat over the gas constant. A nucleus of 33 µm grows at it.
+const WOKEN: f64 = 0.0357;
+
+/// Nuclei of dirty and of clean liquid ([`Bubbles::nuclei_spacing`], m): their number varies by six decades from one water to another
+/// (Brennen 1995, Cavitation and Bubble Dynamics, section 1.12).
+pub const NUCLEI: [f64; 2] = [0.01, 1.0];
+
+/// Nuclei of the liquid that `seed` draws ([`Bubbles::nuclei_spacing`], m): any number between those of dirty and of clean liquid, each
+/// decade as likely.
+pub fn drawn_nuclei(seed: u64) -> f64 {
+    let [dirty, clean] = NUCLEI;
+    let lot = split_mix(split_mix(seed) ^ NUCLEI_LOT) as f64 / 2f64.powi(64);
+    dirty * (clean / dirty).powf(lot)
+}
+
+/// Tells this draw from the filling's.
+const NUCLEI_LOT: u64 = 0x6e75_636c_6569;
 
 /// Most places: a bubble's key has 16 bits for its own.
 const MOST_SLOTS: u32 = 65_536;
@@ -47,15 +69,10 @@ impl Bubbles {
         if self.spray { 2 * self.slots() } else { 0 }
     }
 
-    /// Share of particles of `spacing` (m) that are nuclei.
-    pub fn nuclei(&self, spacing: f64) -> f64 {
-        (spacing / self.nuclei_spacing).powi(3).min(1.0)
-    }
-
-    /// Time between two bubbles of a nucleus, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), with the
-    /// spacing for the diameter.
-    pub fn nucleus_wait(&self) -> f64 {
-        self.nuclei_spacing / FREQUENCY_DIAMETER
+    /// Excess pressure of vapour, over an atmosphere, at which as many nuclei grow as there are particles of `spacing` (m): their number
+    /// rises with its cube, as N(>R) ∝ R⁻³ (Brennen 1995).
+    pub fn nucleus_pressure(&self, spacing: f64) -> f64 {
+        WOKEN * self.nuclei_spacing / spacing
     }
 
     /// The step after substep `n` of `substeps` in a frame, which are 2 or more.

@@ -98,6 +98,18 @@ impl StillAir {
         }
         flux
     }
+
+    /// Water that leaves the liquid of `particle`, kg/(m² s). Unmixed lamellae all reach the surface: their water and their acid each
+    /// have their share of the volume of it.
+    pub fn flux_of_lamellae(&self, table: &SolutionTable, particle: &Potential) -> f64 {
+        let temperature = particle.temperature;
+        table
+            .shown_of_lamellae(particle.acid, particle.variance, temperature)
+            .iter()
+            .filter(|(_, share)| *share > 0.0)
+            .map(|(row, share)| share * self.flux(row, temperature))
+            .sum()
+    }
 }
 
 /// Most of a particle's water that evaporates in a substep: no film of it is dry before bubbles or
@@ -115,7 +127,7 @@ pub fn evaporated(
     if area <= 0.0 {
         return Steam::default();
     }
-    let flux = air.flux(&table.at(particle.acid), particle.temperature);
+    let flux = air.flux_of_lamellae(table, particle);
     let most = MOST_EVAPORATED * (1.0 - particle.acid) * particle.mass;
     let mass = (flux * area * time).min(most);
     Steam {

@@ -1,10 +1,13 @@
 //! The chemistry that a scene models, with its parameters.
 
-use super::bubbles::Bubbles;
+use super::bubbles::{Bubbles, NUCLEI};
 use super::eddies::Mixing;
 use super::paper::Boiling;
 use super::transport::Losses;
 use crate::scene::{Feature, PaperChemistry, PhysicalChemistry, Scene};
+
+/// Least acid fraction of the acid's layers, where all of a scene's liquids are weaker.
+const WEAKEST_FEED: f64 = 0.05;
 
 /// Chemistry of a scene that models heat.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,8 @@ pub struct PaperBoiling {
 pub struct Physical {
     /// Mixing below the particles' size.
     pub mixing: Mixing,
+    /// Acid fraction of the acid's layers: that of the scene's strongest liquid.
+    pub feed: f64,
     /// Whether density follows composition and temperature.
     pub density: bool,
     /// Whether viscosity follows them.
@@ -127,14 +132,16 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
     };
     let bubbles = || {
         Some(Bubbles {
-            nuclei_spacing: physical.nuclei_spacing?,
-            foam_time: physical.foam_time?,
+            nuclei_spacing: physical.nuclei_spacing.unwrap_or(NUCLEI[0]),
+            foam_time: physical.foam_time,
             most: physical.most_bubbles?,
             spray: scene.models(Feature::Spray),
             air: scene.models(Feature::Air),
         })
     };
+    let acids = scene.liquids.iter().map(|liquid| liquid.acid_fraction);
     Some(Physical {
+        feed: acids.fold(WEAKEST_FEED, f64::max),
         bubbles: bubbles().filter(|_| scene.models(Feature::Bubbles)),
         mixing: Mixing {
             turbulence: physical.mixing?,

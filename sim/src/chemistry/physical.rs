@@ -2,7 +2,7 @@
 
 use super::error::{OutOfRange, check_content};
 use super::properties::AZEOTROPE;
-use super::segregation::{Lamellae, without_water};
+use super::segregation::without_water;
 use super::table::{Row, STEAM_CAPACITY, SolutionTable, steam_enthalpy};
 
 /// Newton's steps towards the equilibrium of liquid and vapour. From the
@@ -135,7 +135,7 @@ impl Content {
     fn flash(&self, table: &SolutionTable, steps: u32) -> f64 {
         let most = (1.0 - self.acid / AZEOTROPE).clamp(0.0, MOST_VAPOUR);
         let superheat = |vapour: f64| {
-            let row = self.boiled_to(vapour).liquid_row(table);
+            let row = self.boiled_to(table, vapour).liquid_row(table);
             row.temperature_with_steam(self.enthalpy, vapour) - row.boiling_point
         };
         let row = self.liquid_row(table);
@@ -156,22 +156,22 @@ impl Content {
     }
 
     /// This with the vapour fraction `vapour`, whose water came from or went to the most watery part.
-    fn boiled_to(&self, vapour: f64) -> Self {
+    fn boiled_to(&self, table: &SolutionTable, vapour: f64) -> Self {
         let gone = (vapour - self.vapour) / (1.0 - self.vapour);
         Self {
             vapour,
-            variance: self.variance_without(gone),
+            variance: self.variance_without(table, gone),
             ..*self
         }
     }
 
     /// s² after the share `gone` of the liquid has left its most watery part as water.
-    fn variance_without(&self, gone: f64) -> f64 {
+    fn variance_without(&self, table: &SolutionTable, gone: f64) -> f64 {
         if self.variance <= 0.0 {
             return 0.0;
         }
         let acid = self.liquid_acid();
-        let depth = Lamellae::get().excess(acid, self.variance).depth;
+        let depth = table.lamellae().excess(acid, self.variance).depth;
         without_water(self.variance, acid, acid - depth, gone)
     }
 
@@ -181,14 +181,14 @@ impl Content {
     pub fn boil(&mut self, table: &SolutionTable, time: f64, settling: f64) -> f64 {
         let way = self.equilibrium(table, FLASH_STEPS) - self.vapour;
         let change = way * -(-time / settling).exp_m1();
-        *self = self.boiled_to(self.vapour + change);
+        *self = self.boiled_to(table, self.vapour + change);
         change
     }
 
     /// Takes away water that evaporates; the vapour in bubbles stays.
-    pub fn take_out_water(&mut self, gone: &Steam) {
+    pub fn take_out_water(&mut self, table: &SolutionTable, gone: &Steam) {
         let mass = self.mass - gone.mass;
-        self.variance = self.variance_without(gone.mass / self.liquid_mass());
+        self.variance = self.variance_without(table, gone.mass / self.liquid_mass());
         self.acid *= self.mass / mass;
         self.enthalpy = (self.mass * self.enthalpy - gone.enthalpy) / mass;
         self.vapour *= self.mass / mass;

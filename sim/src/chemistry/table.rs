@@ -3,6 +3,8 @@
 
 use super::constants::ABSOLUTE_ZERO;
 use super::properties::{CAPACITY_SLOPE, CAPACITY_SLOPE_FROM, COLUMN_TEMPERATURES, Properties};
+use super::segregation::{Lamellae, USUAL_FEED};
+use std::sync::{Arc, OnceLock};
 
 /// Intervals of the table from pure water to pure acid. Against the curves
 /// the enthalpy is off by 60 J/kg (14 mK) at most below 1 % acid and by 28
@@ -19,6 +21,9 @@ const CAPACITY_AT: f64 = 20.0;
 
 /// Enthalpy of steam at 25 °C over liquid water's there, J/kg (CoolProp).
 pub const STEAM_ENTHALPY: f64 = 2.442e6;
+
+/// Temperatures between which densities follow their law, °C: acid boils at 337 °C.
+const DENSITY_RANGE: [f64; 2] = [0.0, 340.0];
 
 /// Heat capacity of steam, J/(kg K), mean from 25 to 150 °C.
 pub const STEAM_CAPACITY: f64 = 1.9e3;
@@ -110,11 +115,14 @@ impl Row {
         self.temperature_with_steam(enthalpy, 0.0)
     }
 
-    /// ρ(T), kg/m³: linear, as CARMA's table has it, from its 0 °C to 200 °C
-    /// and no further. It rests on measurements up to 100 °C; water at 150 °C
+    /// ρ(T), kg/m³: linear from 0 to 340 °C, and no further. CARMA's table has it
+    /// so to 200 °C, and it rests on measurements up to 100 °C; water at 150 °C
     /// is 1.7 % lighter (IAPWS-95), and other continuations of acid's differ by 2 %.
+    /// Above 200 °C we found no measurement: for acid of 98 % at 337 °C this is
+    /// 1,527, and Rackett's equation from the critical point (924 K) estimates 1,408.
     pub fn density_at(&self, temperature: f64) -> f64 {
-        let warm = temperature.clamp(0.0, 200.0) - COLUMN_TEMPERATURES[0];
+        let [coldest, hottest] = DENSITY_RANGE;
+        let warm = temperature.clamp(coldest, hottest) - COLUMN_TEMPERATURES[0];
         self.density + self.density_slope * warm
     }
 
@@ -140,15 +148,24 @@ fn warmth(temperature: f64) -> (f64, f64) {
     )
 }
 
-/// [`Properties`] at [`INTERVALS`] + 1 nodes over the acid mass fraction.
-#[derive(Clone, Debug, PartialEq)]
+/// [`Properties`] at [`INTERVALS`] + 1 nodes over the acid mass fraction, and those of lamellae.
+#[derive(Clone, Debug)]
 pub struct SolutionTable {
     nodes: Vec<[f64; 8]>,
+    /// Acid fraction of the acid's layers.
+    feed: f64,
+    /// Made when they are first asked for.
+    lamellae: OnceLock<Arc<Lamellae>>,
 }
 
 impl SolutionTable {
-    /// Table of the project's own data.
+    /// Table of the project's own data, for lamellae of water and concentrated acid.
     pub fn new() -> Self {
+        Self::fed_by(USUAL_FEED)
+    }
+
+    /// The same for lamellae of water and acid of the mass fraction `feed`, above 0 and up to 1.
+    pub fn fed_by(feed: f64) -> Self {
         let curves = Properties::new();
         let node = |i: usize| {
             let acid = i as f64 / INTERVALS as f64;
@@ -167,7 +184,14 @@ impl SolutionTable {
         };
         Self {
             nodes: (0..=INTERVALS).map(node).collect(),
+            feed,
+            lamellae: OnceLock::new(),
         }
+    }
+
+    /// Properties of lamellae less those of their mean.
+    pub fn lamellae(&self) -> &Lamellae {
+        self.lamellae.get_or_init(|| Lamellae::of(self.feed))
     }
 
     /// For the GPU: two vectors per node, at 2i and 2i + 1 for the acid

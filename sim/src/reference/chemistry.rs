@@ -199,7 +199,7 @@ impl ReferencePhysical {
     /// # Errors
     /// [`OutOfRange`] for a composition or temperature that no liquid has.
     pub fn new(law: Law, volume: f64, particles: &[(f64, f64)]) -> Result<Self, OutOfRange> {
-        let table = SolutionTable::new();
+        let table = SolutionTable::fed_by(law.feed);
         let content = |&(temperature, acid): &(f64, f64)| {
             let mass = volume * table.at(acid).density_at(temperature);
             Content::liquid(&table, mass, acid, temperature)
@@ -255,7 +255,7 @@ impl ReferencePhysical {
             content.enthalpy += (enthalpy + gained) / content.mass;
             if let Some(air) = &air {
                 let gone = evaporated(&self.table, air, &potentials[i], touches[i].surface, time);
-                content.take_out_water(&gone);
+                content.take_out_water(&self.table, &gone);
                 self.ledger.steam.mass += gone.mass;
                 self.ledger.steam.enthalpy += gone.enthalpy;
             }

@@ -190,6 +190,8 @@ buffers! {
         live_args: 16,
         /// Drops that bubbles threw up.
         drops: DROPS_WORDS as u64 * s.drops,
+        /// By flask: quanta of gas that its bubbles let go since the last step, and the flow of it (m³/s, bits of an f32).
+        venting: 2 * s.vented_flasks,
         /// By flask: quanta of drops of its liquid that came to rest elsewhere.
         spray_left: s.sprayed_flasks,
         /// By flask and ring: T (°C) and its rounding remainder.
@@ -235,6 +237,7 @@ struct Sizes {
     bubbles: u64,
     live: u64,
     drops: u64,
+    vented_flasks: u64,
     sprayed_flasks: u64,
     rings: u64,
     dew: u64,
@@ -261,9 +264,9 @@ impl Sizes {
         let groups = u64::from(count.div_ceil(LOAD_GROUP));
         let chemistry = parameters.chemistry.as_ref();
         let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
-        let lamella = match chemistry {
-            Some(Chemistry::Physical(physical)) => physical.lamella.is_some(),
-            _ => false,
+        let feed = match chemistry {
+            Some(Chemistry::Physical(physical)) => physical.lamella.map(|_| physical.feed),
+            _ => None,
         };
         let bubbles = parameters.bubbles();
         let places = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
@@ -277,7 +280,7 @@ impl Sizes {
         let steams = with_steam(parameters).is_some();
         let dew = dew_places(parameters, spec.flasks.len());
         let solution = physical.then(|| SolutionTable::new().rows());
-        let lamellae = lamella.then(|| Lamellae::get().rows());
+        let lamellae = feed.map(|feed| Lamellae::of(feed).rows());
         let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
         Self {
             n,
@@ -300,6 +303,7 @@ impl Sizes {
             bubbles: places,
             live: where_asked(bubbles.is_some(), places + 2),
             drops,
+            vented_flasks: where_asked(bubbles.is_some(), flasks),
             sprayed_flasks: where_asked(drops > 0, flasks),
             rings: wall_heat::ring_count(chemistry, spec.flasks.len()) as u64,
             dew: dew as u64,

@@ -30,7 +30,7 @@ pub struct Counters {
     /// power: at most 30 % are added to a relative velocity.
     pub growth_limited: u32,
     /// Particles and substeps in which a density was that of the end of its
-    /// table, 0 or 200 °C.
+    /// table, 0 or 340 °C.
     pub table_ends: u32,
     /// Times that surface tension was left out: liquid lay in more places than its table has room for.
     pub tension_skipped: u32,

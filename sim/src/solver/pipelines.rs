@@ -8,6 +8,7 @@ use super::vapour::dew_places;
 use super::vessels::PLANE_ENTRIES;
 use super::wall_heat;
 use super::{SolverError, SolverSpec};
+use crate::chemistry::bubbles::NUCLEUS_WAIT;
 use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
@@ -271,14 +272,18 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
             ("SLOTS", bubbles.slots().into()),
             ("SPRAY", flag(bubbles.spray)),
             ("AIR", flag(bubbles.air)),
-            ("NUCLEI", bubbles.nuclei(p.spacing)),
-            ("NUCLEUS_WAIT", bubbles.nucleus_wait()),
-            ("FOAM_TIME", bubbles.foam_time),
+            ("NUCLEUS_PRESSURE", bubbles.nucleus_pressure(p.spacing)),
+            ("NUCLEUS_WAIT", NUCLEUS_WAIT),
+            ("FOAM_TIME", bubbles.foam_time.unwrap_or_default()),
             ("GRAVITY", glam::DVec3::from(p.gravity).length()),
         ]);
     }
     if let Some(lamella) = physical.lamella {
-        own.extend([("SEGREGATION", 1.0), ("LAMELLA", lamella)]);
+        own.extend([
+            ("SEGREGATION", 1.0),
+            ("LAMELLA", lamella),
+            ("FEED", physical.feed),
+        ]);
     }
     if let Some(losses) = &physical.losses {
         own.extend([

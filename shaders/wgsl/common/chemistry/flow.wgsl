@@ -1,4 +1,5 @@
-// The flow that is filtered at a frame's end: velocity (m/s), and density over the rest density.
+// The flow that is filtered at a frame's end: velocity (m/s), and density of the liquid over the rest density. Gas is left out:
+// bubbles slip through the liquid, and a foam does not damp eddies as heavy liquid under light does.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/liquid/particle.wgsl
@@ -14,7 +15,7 @@ override FIRST: bool = false;
 fn flow_at(j: u32) -> vec4<f32> {
     if (!FIRST) { return flow[j]; }
     var density = 1.0;
-    if (DENSITY) { density = 1.0 / unpack_bulk(bulk[j]).lightness; }
+    if (DENSITY) { density = liquid_density(unpack_bulk(bulk[j])); }
     // What turned non-finite is taken out in the next substep; until then it rests.
     let known = is_finite(velocity[j].xyz) && is_finite(vec3<f32>(density));
     return select(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec4<f32>(velocity[j].xyz, density), known);

@@ -6,14 +6,17 @@
 
 /// δ, m.
 override LAMELLA: f32 = 0.0003;
+/// Acid fraction of the acid's layers.
+override FEED: f32 = 0.98;
 
-/// Acid fraction of the acid's layers, and intervals of the table over c and √Θ.
-const FEED: f32 = 0.98;
+/// Intervals of the table over c and √Θ.
 const LAMELLAE_INTERVALS: u32 = 16u;
 /// Variance below which a liquid counts as mixed.
 const MIXED: f32 = 1e-8;
 const ENGULFMENT: f32 = 0.058;
 const WATER_VISCOSITY: f32 = 0.89e-3;
+/// Depth of the water below the mean from which a surface shows it.
+const LEAST_DEPTH: f32 = 1e-3;
 const PI: f32 = 3.14159265358979;
 
 /// What lamellae differ in from their mean: [h at 25 °C (J/kg), cp at 20 °C (J/(kg K)), dcp/dT (J/(kg K²)),
@@ -36,6 +39,26 @@ fn excess_of(acid: f32, variance: f32) -> vec4<f32> {
 /// c of the most watery part.
 fn poorest_of(acid: f32, variance: f32) -> f32 {
     return max(acid - excess_of(acid, variance).w, 0.0);
+}
+
+/// The two liquids that lamellae show at a surface.
+struct Shown {
+    /// c of the water's, and of the acid's.
+    poorest: f32,
+    richest: f32,
+    /// Share of the volume that is the water's.
+    share: f32,
+}
+
+/// What lamellae show; a mixture is all of one liquid.
+fn shown_of_lamellae(acid: f32, variance: f32, temperature: f32) -> Shown {
+    let poorest = poorest_of(acid, variance);
+    let depth = acid - poorest;
+    if (depth < LEAST_DEPTH) { return Shown(acid, acid, 1.0); }
+    let richest = min(acid + variance / depth, 1.0);
+    let water = variance / density_of(poorest, temperature);
+    let rest = depth * depth / density_of(richest, temperature);
+    return Shown(poorest, richest, water / (water + rest));
 }
 
 /// Heat is that of all of it, the boiling point that of the middle of its water, the rest that of the mean.

@@ -139,9 +139,9 @@ fn equilibrium(acid: f32, enthalpy: f32, start: f32) -> f32 {
 
 /// Temperatures between which densities follow their law, °C (`chemistry/table.rs`).
 const TABLES_FROM: f32 = 0.0;
-const TABLES_TO: f32 = 200.0;
+const TABLES_TO: f32 = 340.0;
 
-/// ρ, kg/m³. Above 200 °C that of 200 °C.
+/// ρ, kg/m³.
 fn density_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);

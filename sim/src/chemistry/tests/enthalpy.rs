@@ -208,6 +208,21 @@ fn latent_heat_is_that_of_the_vapour_pressure() {
     }
 }
 
+/// By hand from 1,836 and 1,758 kg/m³ at 20 and 100 °C. We found no measurement above 200 °C; Rackett's equation from the critical
+/// point (924 K) estimates 1,408 kg/m³ at 337 °C, and this is to be no more than a tenth from it.
+#[test]
+fn acids_density_goes_on_in_a_line_to_its_boiling_point() {
+    let acid = SolutionTable::new().at(0.98);
+    for (temperature, known) in [(200.0, 1660.5), (300.0, 1563.0), (337.0, 1526.9)] {
+        let own = acid.density_at(temperature);
+        assert!((own / known - 1.0).abs() < 1e-3, "{temperature}: {own}");
+    }
+    assert!((acid.density_at(337.0) / 1408.0 - 1.0).abs() < 0.1);
+    // And no further.
+    assert_eq!(acid.density_at(340.0), acid.density_at(500.0));
+    assert_eq!(acid.density_at(0.0), acid.density_at(-40.0));
+}
+
 #[test]
 fn viscosity_and_density_between_the_columns() {
     let table = SolutionTable::new();

@@ -1,7 +1,8 @@
 //! Water that leaves below its boiling point, by tables of others.
 
-use super::super::evaporation::{StillAir, vapour_pressure};
+use super::super::evaporation::{StillAir, evaporated, vapour_pressure};
 use super::super::table::SolutionTable;
+use super::super::transport::Potential;
 
 #[test]
 fn pressure_of_water_is_that_of_steam_tables() {
@@ -123,4 +124,40 @@ fn liquid_of_any_temperature_evaporates_by_a_number() {
             );
         }
     }
+}
+
+/// Unmixed layers show water and acid, of which acid gives off none at 90 °C: what leaves is water's flux from water's part of the
+/// surface, which is that of the volume. A mixture's is that of its composition.
+#[test]
+fn unmixed_layers_evaporate_as_their_water_does() {
+    let table = SolutionTable::new();
+    let air = StillAir::at(&table, 20.0);
+    let (acid, temperature) = (0.5, 90.0);
+    let (area, time) = (1e-6, 1e-3);
+    let flux = |variance: f64| {
+        let particle = Potential {
+            mass: 1e-5,
+            acid,
+            temperature,
+            enthalpy: table.enthalpy(acid, temperature),
+            capacity: table.at(acid).capacity_at(temperature),
+            variance,
+        };
+        evaporated(&table, &air, &particle, area, time).mass / (area * time)
+    };
+    let share = acid / 0.98;
+    let volume = |acid: f64, mass: f64| mass / table.at(acid).density_at(temperature);
+    let water = volume(0.0, 1.0 - share) / (volume(0.0, 1.0 - share) + volume(0.98, share));
+    let expected = water * air.flux(&table.at(0.0), temperature);
+    let unmixed = flux(0.999 * acid * (0.98 - acid));
+    assert!(
+        (unmixed / expected - 1.0).abs() < 0.05,
+        "{unmixed} {expected}"
+    );
+    let mixed = air.flux(&table.at(acid), temperature);
+    assert!((flux(0.0) / mixed - 1.0).abs() < 1e-12);
+    // As they mix, it goes from the one to the other.
+    let [nearly, half] = [1e-7, 0.25].map(|part| flux(part * acid * (0.98 - acid)));
+    assert!((nearly / mixed - 1.0).abs() < 0.01, "{nearly} {mixed}");
+    assert!(half > mixed && half < unmixed, "{half}");
 }

@@ -48,9 +48,13 @@ fn the_physical_chemistrys_numbers_arrive() {
     physical.nuclei_spacing = Some(10.0);
     physical.foam_time = Some(11.0);
     physical.most_bubbles = Some(12);
+    (
+        scene.liquids[0].acid_fraction,
+        scene.liquids[1].acid_fraction,
+    ) = (0.5, 0.92);
     let bubbles = Bubbles {
         nuclei_spacing: 10.0,
-        foam_time: 11.0,
+        foam_time: Some(11.0),
         most: 12,
         spray: true,
         air: true,
@@ -61,6 +65,7 @@ fn the_physical_chemistrys_numbers_arrive() {
             turbulence: 2.0,
             width: 0.004,
         },
+        feed: 0.92,
         density: true,
         viscosity: true,
         superheat_time: Some(4.0),
@@ -98,5 +103,25 @@ fn the_physical_chemistrys_numbers_arrive() {
         let mut expected = all;
         off(&mut expected);
         assert_eq!(of(&without), expected, "{feature:?}");
+    }
+}
+
+/// Lamellae have the acid of the scene's strongest liquid, in whatever order they are; water has some, as its share is divided by.
+#[test]
+fn the_strongest_liquid_feeds_the_lamellae() {
+    let mut scene = Scene::builtin("water-into-acid").unwrap();
+    for (acids, expected) in [
+        ([0.5, 0.92], 0.92),
+        ([0.98, 0.0], 0.98),
+        ([0.0, 1.0], 1.0),
+        ([0.0, 0.0], 0.05),
+    ] {
+        for (liquid, acid) in scene.liquids.iter_mut().zip(acids) {
+            liquid.acid_fraction = acid;
+        }
+        let Some(Chemistry::Physical(physical)) = Chemistry::from_scene(&scene) else {
+            panic!("has the physical chemistry")
+        };
+        assert_eq!(physical.feed, expected, "{acids:?}");
     }
 }

@@ -156,10 +156,11 @@ fn boiling_and_what_leaves_keep_mass_acid_and_enthalpy() {
             let water = content.liquid_mass() * (1.0 - content.liquid_acid());
             let leaves = 1e-6 * f64::from(step % 11) * water;
             let specific = steam_enthalpy(content.temperature(&table));
-            content.take_out_water(&Steam {
+            let gone = Steam {
                 mass: leaves,
                 enthalpy: leaves * specific,
-            });
+            };
+            content.take_out_water(&table, &gone);
             mass += leaves;
             enthalpy += leaves * specific;
             assert!((0.0..=1.0).contains(&content.acid), "{content:?}");

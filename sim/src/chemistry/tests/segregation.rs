@@ -2,7 +2,7 @@
 //! diffusivity that follows viscosity, all of it has one temperature, and nothing of it is presumed.
 
 use super::super::physical::Content;
-use super::super::segregation::{FEED, Lamellae, decay_rate, diffusivity, without_water};
+use super::super::segregation::{USUAL_FEED as FEED, decay_rate, diffusivity, without_water};
 use super::super::table::{Row, SolutionTable};
 use vitriol_tests::random::Random;
 
@@ -204,13 +204,39 @@ fn a_mixture_is_a_mixture() {
         assert!((ordinary - own).abs() < 2e-4, "{acid}: {ordinary} {own}");
     }
     // Unmixed layers have the heat of both.
-    let layers = Lamellae::get().excess(0.5, 0.5 * 0.48);
+    let layers = table.lamellae().excess(0.5, 0.5 * 0.48);
     let known = -table.at(0.5).enthalpy + 0.5 / FEED * table.at(FEED).enthalpy;
     assert!(
         (layers.enthalpy / known - 1.0).abs() < 0.02,
         "{layers:?} {known}"
     );
     assert!((layers.depth - 0.5).abs() < 0.01, "{layers:?}");
+}
+
+/// Unmixed layers of water and a weaker acid are as unmixed as those of 98 %: their heat is that of both, and there is pure water.
+#[test]
+fn layers_of_a_weaker_acid_are_unmixed_too() {
+    for feed in [0.6, 0.8, 0.92] {
+        let mean = feed - 0.1;
+        let table = SolutionTable::fed_by(feed);
+        let layers = table.lamellae().excess(mean, mean * (feed - mean));
+        assert!((layers.depth - mean).abs() < 0.01, "{feed}: {layers:?}");
+        let known = mean / feed * table.at(feed).enthalpy - table.at(mean).enthalpy;
+        assert!(
+            (layers.enthalpy / known - 1.0).abs() < 0.03,
+            "{feed}: {layers:?} {known}"
+        );
+        let water = table.of_lamellae(mean, mean * (feed - mean));
+        assert!(
+            (water.boiling_point - 100.0).abs() < 0.2,
+            "{feed}: {water:?}"
+        );
+        // A feed has one table, whoever asks for it.
+        assert!(std::ptr::eq(
+            table.lamellae(),
+            SolutionTable::fed_by(feed).lamellae()
+        ));
+    }
 }
 
 /// Parts of any composition, of which the poorest loses some of its water: by counting.
@@ -287,7 +313,7 @@ fn three_steps_find_the_vapour_of_lamellae() {
                     variance: without_water(
                         variance,
                         mean,
-                        mean - Lamellae::get().excess(mean, variance).depth,
+                        mean - table.lamellae().excess(mean, variance).depth,
                         many,
                     ),
                     ..content

@@ -5,6 +5,7 @@ use crate::chemistry::OutOfRange;
 use crate::chemistry::Physical as Law;
 use crate::chemistry::adiabatic::{Feed, mix};
 use crate::chemistry::eddies::Mixing;
+use crate::chemistry::segregation::USUAL_FEED;
 use crate::chemistry::transport::Losses;
 use crate::parameters::Parameters;
 use crate::reference::Reference;
@@ -16,6 +17,7 @@ pub fn closed() -> Law {
         bubbles: None,
         lamella: None,
         mixing: Mixing::default(),
+        feed: USUAL_FEED,
         losses: None,
         density: false,
         viscosity: false,
