@@ -29,6 +29,7 @@ pub use settings::{
 
 pub use tool::{PANE, Tool, ToolKind, sash_heights};
 
+use crate::chemistry::bubbles::drawn_nuclei;
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
 use crate::surface_tension::{HYSTERESIS, SurfaceTension};
@@ -179,6 +180,18 @@ impl Scene {
     /// Fluid particles that represent `liquid`.
     pub fn particle_count(&self, liquid: &Liquid) -> usize {
         fill::count_for_volume(liquid.volume, self.scale.spacing)
+    }
+
+    /// This scene with the nuclei of bubbles that `seed` draws, where it has bubbles and does not say how many nuclei.
+    pub fn with_nuclei(&self, seed: u64) -> Self {
+        let mut scene = self.clone();
+        if scene.models(Feature::Bubbles)
+            && let Some(physical) = &mut scene.physical
+        {
+            let spacing = &mut physical.nuclei_spacing;
+            *spacing = spacing.or_else(|| Some(drawn_nuclei(seed)));
+        }
+        scene
     }
 
     /// The fluid at the start; the seed is [`fill::fill`]'s.

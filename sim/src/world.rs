@@ -154,6 +154,7 @@ impl World {
         seed: u64,
         constraint: bool,
     ) -> Result<Self, WorldError> {
+        let scene = &scene.with_nuclei(seed);
         let parameters = Parameters::from_scene(scene);
         let particles = particles(scene, seed)?;
         let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();

@@ -8,12 +8,14 @@
 //!include common/chemistry/bubble_motion.wgsl
 //!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/entrainment.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/halves.wgsl
 //!include common/chemistry/live_places.wgsl
 //!include common/chemistry/plunging.wgsl
 //!include common/chemistry/throwing.wgsl
 //!include common/chemistry/touching.wgsl
+//!include common/chemistry/venting.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/liquid/cells_around.wgsl
 //!include common/liquid/counters.wgsl
@@ -21,8 +23,6 @@
 //!include common/liquid/step.wgsl
 //!include common/maths/lot.wgsl
 
-/// How long a bubble stays at the surface, s.
-override FOAM_TIME: f32 = 0.1;
 /// Direction of gravity.
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = -9.81;
@@ -63,8 +63,14 @@ const NUCLEUS: f32 = 3e-4;
 const VANISHED: f32 = 1e-4;
 /// Share of solid space, a support radius below a particle that plunges, from which on it takes no air down.
 const BESIDE_GLASS: f32 = 0.01;
-/// Most way in a step by which a cavity leaves glass and other cavities, over h: one that leaps crushes particles.
-const MOST_SHIFT: f32 = 0.2;
+/// Share of liquid around a bubble below which nothing but drops hold it: half of that of one whose middle is at the surface.
+const LEAST_FILLED: f32 = 0.25;
+/// How deep under the surface the top of a bubble that lay at it may come and still lie there, m: how well the surface is known.
+const STAYS: f32 = 1e-3;
+/// Half of the step between two numbers by lot.
+const LOT_STEP: f32 = 0.5 / 1024.0;
+/// Greatest speed with which a cavity leaves glass and other cavities, m/s: one that leaps throws particles.
+const MOST_SHIFT: f32 = 0.1;
 
 var<workgroup> claimed: array<u32, 64>;
 var<workgroup> joined: array<vec3<i32>, 64>;
@@ -78,6 +84,21 @@ fn exchange_with(identity: u32, steam: i32, enthalpy: i32) {
 fn volume_of(bubble: Bubble) -> f32 {
     let steam = steam_volume(bubble.mass, bubble.enthalpy);
     return steam + bubble.air * MASS / steam_density(bubble.air_temperature);
+}
+
+/// The pool that a bubble is in, and what rises from it.
+fn pool_of(bubble: Bubble) -> Pool {
+    if (bubble.membership == NOBODYS) { return Pool(0.0, 1.0, 1.0); }
+    let k = bubble.membership - 1u;
+    let y = flask_from_stage(poses[step.after + k], bubble.position).y;
+    let radius = max(inner_radius(k, clamp(y, flasks[k].floor, flasks[k].rim)), bubble.radius);
+    let flow = venting[k].flow;
+    return Pool(flow / (BUBBLE_PI * radius * radius), 2.0 * radius, steam_density(temperature_of(bubble)));
+}
+
+/// A number in (0, 1) by lot, another for each `what`.
+fn lot_of(bubble: Bubble, slot: u32, what: u32) -> f32 {
+    return lot(bitcast<u32>(bubble.position.x) + what, slot) + LOT_STEP;
 }
 
 /// Air that particle i took down, in one bubble.
@@ -175,21 +196,26 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         if (lane == 0u) { bubbles[other_first + slot] = emptied(bubble); }
         return;
     }
-    let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, CAVITY_CELLS);
-    let reach = min(SUPPORT + bubble.radius, f32(cells) * SUPPORT);
+    let cells = clamp(i32(ceil((reach_beyond() + bubble.radius) / CELL)), 1, CAVITY_CELLS);
+    let reach = min(reach_beyond() + bubble.radius, f32(cells) * SUPPORT);
 
     let s = gather(bubble, slot, first, reach, cells, lane, up);
     if (s.weight > 0.0) { bubble.air_temperature = s.temperature; }
     bubble.cavity = cavity_of(bubble, s);
     let around = around_of(s.acid, s.temperature);
-    // Surface tension holds no wider cap.
-    let bursts = bubble.surfaced > select(FOAM_TIME, 0.0, bubble.radius > stable_radius(around));
+    let is_open = s.filled < LEAST_FILLED && any(up != vec3<f32>(0.0));
+    let bursts = is_open || bubble.surfaced > life_of_film(bubble.radius, around);
     if (SPRAY) {
         var jet: Burst;
         var film: Burst;
         if (bursts && s.contact > 0.0) {
-            jet = jet_of(bubble.radius, around);
-            film = film_of(bubble.radius, around);
+            let pool = pool_of(bubble);
+            if (churns(pool, around)) {
+                jet = entrained(volume_of(bubble), pool, around, lot_of(bubble, slot, 2u), lot_of(bubble, slot, 3u));
+            } else {
+                jet = jet_of(bubble.radius, around, s.crowd, lot_of(bubble, slot, 2u));
+                film = film_of(bubble.radius, bubble.surfaced, around);
+            }
         }
         spray(bubble, slot, OF_JET, jet, s, around, reach, cells, lane, up);
         spray(bubble, slot, OF_FILM, film, s, around, reach, cells, lane, up);
@@ -197,7 +223,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
     // Only lane 0 has a map's wall.
-    let uncovered = lane == 0u && cover_of(s.cover, wall, up) < mix(COVERED, CAVITY_COVERED, bubble.cavity);
+    let deepest = bubble.radius + select(0.0, STAYS, bubble.surfaced > 0.0);
+    let covered = mix(cover_under(min(deepest / reach, 1.0)), CAVITY_COVERED, bubble.cavity);
+    let uncovered = lane == 0u && cover_of(s.cover, wall, up) < covered;
     let at_surface = lane_max(u32(uncovered)) > 0u;
     let motion = motion_of(bubble, s, around, gravity, is_born, at_surface, time);
     drag_along(bubble, motion, reach, cells, lane);
@@ -228,6 +256,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     // What new ones push under for a moment is no younger for it.
     bubble.surfaced = max(bubble.surfaced + select(-time, time, at_surface), 0.0);
     if (alone || bursts) {
+        if (bubble.membership != NOBODYS) { vent_gas(bubble.membership - 1u, volume_of(bubble)); }
         bubble.gone += vec2<f32>(bubble.mass, bubble.enthalpy);
         bubble.air_gone += bubble.air;
         bubble = emptied(bubble);
@@ -240,7 +269,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.position += bubble.velocity * time;
     bubble.radius = radius_of_volume(volume_of(bubble));
     let shift = touching.way + clear_of_glass(bubble) - bubble.position;
-    bubble.position += shift * min(MOST_SHIFT * SUPPORT / max(length(shift), 1e-9), 1.0);
+    bubble.position += shift * min(MOST_SHIFT * time / max(length(shift), 1e-9), 1.0);
     bubble.divides = select(0.0, 1.0, bubble.radius > widest_at(bubble));
 
     let other_slot = larger & 0xffffu;

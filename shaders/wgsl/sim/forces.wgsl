@@ -28,8 +28,6 @@
 override PREDICT: bool = false;
 /// Whether the liquid has any viscosity of its own.
 override VISCOUS: bool = true;
-/// ρ0, kg/m³.
-override REST_DENSITY: f32 = 1000.0;
 /// D_c, m²/s.
 override ACID_DIFFUSION: f32 = 0.0;
 /// k_d of Eq. 13 for a particle's mass, K per J/kg.
@@ -187,9 +185,6 @@ fn renew(i: u32, tag: vec2<u32>, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
     return extent.volume;
 }
 
-/// ρ of steam at 100 °C, kg/m³, for the picture's vapour.
-const STEAM_DENSITY: f32 = 0.59;
-
 /// Asks for a bubble at particle i, of steam or of air.
 fn claim(identity: u32, i: u32, what: u32) {
     let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], what | (i + 1u));
@@ -209,7 +204,7 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
     if ((step.bubbles & BUBBLES_ACT) > 0u) {
         let boil = boil_of(content, variance, potential);
         boils[i] = boil;
-        if (boil.x > NUCLEATION && is_nucleus(identity) && held.w <= 0.0) {
+        if (held.w <= 0.0 && nucleus_grows(identity, boil.x, potential.temperature)) {
             held.w = NUCLEUS_WAIT;
             claim(identity, i, 0u);
         }

@@ -4,6 +4,8 @@
 //!include common/chemistry/drops.wgsl
 //!include common/chemistry/live_places.wgsl
 //!include common/chemistry/dividing.wgsl
+//!include common/chemistry/venting.wgsl
+//!include common/glass/vessel.wgsl
 //!include common/liquid/lane_sums.wgsl
 
 /// Those before the step, and after it.
@@ -52,6 +54,7 @@ fn clear_other() {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let slot = id.x;
     if (slot == 0u) { clear_other(); }
+    if (slot < FLASKS) { take_up_vented(slot, step.bubble_time); }
     if (slot >= SLOTS || !has_something(slot)) { return; }
     if (is_free(slot)) {
         let parent = parent_of(slot, step.before_bubbles);

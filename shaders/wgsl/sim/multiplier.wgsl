@@ -87,6 +87,10 @@ fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
     return before;
 }
 
+/// Share of liquid up to which particles in a cavity are drops: a little less than that at a level surface. With that itself a bubble of
+/// 7 mm rose 1.15 times as fast as it should, with this 1.11 times.
+const MOST_ALONE: f32 = 0.45;
+
 /// Line 19: how much of its multiplier's change a particle takes that gas has swollen, or that is light: the sum of its gradients grows with its
 /// volume and with its lightness, and so would what an iteration overshoots.
 fn stiffness_of(i: u32) -> f32 {
@@ -138,7 +142,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     boundary[i] = wall;
     var constraint = density_constraint(sum, volume_in(own), wall_volume(wall), before);
-    // No more than the wall leaves.
-    if (BUBBLES) { constraint += min(cavity_volume(cavities[i], x - position[i].xyz), max(1.0 - wall_volume(wall), 0.0)); }
+    if (BUBBLES) {
+        // No more than wall and liquid leave: gas does not push a few drops that are alone in it.
+        let liquid = min((sum + volume_in(own) * spline(0.0)) * weight_scale(), MOST_ALONE);
+        constraint += min(cavity_volume(cavities[i], x - position[i].xyz), max(1.0 - wall_volume(wall) - liquid, 0.0));
+    }
     update_multiplier(i, x, constraint);
 }

@@ -47,9 +47,10 @@ pub struct PhysicalChemistry {
     pub eddy_width: Option<f64>,
     /// Time in which a superheat decays into vapour that particles hold, s; with `evaporation`, without `bubbles`.
     pub superheat_time: Option<f64>,
-    /// Edge of the cube of liquid that has one nucleus of bubbles, m; with `bubbles`.
+    /// Edge of the cube of liquid that has one nucleus of bubbles which grows at a superheat of 1 K, m: 0.01 of dirty liquid, 1 of
+    /// clean; with `bubbles`. Without it each seed draws it.
     pub nuclei_spacing: Option<f64>,
-    /// How long a bubble lasts at the surface, s; with `bubbles`.
+    /// How long a bubble lasts at the surface, s; with `bubbles`. Without it: until its film has drained.
     pub foam_time: Option<f64>,
     /// Most bubbles at a time; with `bubbles`.
     pub most_bubbles: Option<u32>,
@@ -102,8 +103,6 @@ impl PhysicalChemistry {
             ("ambient", Heat, p.ambient, TEMPERATURE),
             ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
             ("eddy_width", Dilution, p.eddy_width, LENGTH),
-            ("nuclei_spacing", Bubbles, p.nuclei_spacing, LENGTH),
-            ("foam_time", Bubbles, p.foam_time, DURATION),
             (
                 "most_bubbles",
                 Bubbles,
@@ -114,6 +113,13 @@ impl PhysicalChemistry {
             ("glass_loss", Losses, p.glass_loss, NOT_NEGATIVE),
             ("surface_loss", Losses, p.surface_loss, NOT_NEGATIVE),
         ];
+        // Without them bubbles have them by lot and by a law.
+        if p.nuclei_spacing.is_some() {
+            fields.push(("nuclei_spacing", Bubbles, p.nuclei_spacing, LENGTH));
+        }
+        if p.foam_time.is_some() {
+            fields.push(("foam_time", Bubbles, p.foam_time, DURATION));
+        }
         // Bubbles themselves are how a superheat decays.
         if !bubbles {
             fields.push(("superheat_time", Evaporation, p.superheat_time, DURATION));

@@ -43,6 +43,8 @@ pub(super) struct BubbleState {
     pub(super) merging: Vec<[i32; 3]>,
     /// By identity, where streams take air down.
     pub(super) falls: Vec<[f32; 2]>,
+    /// By flask: quanta of gas that bubbles let go since the last step, and the flow of it, m³/s, as bits.
+    pub(super) venting: Vec<[u32; 2]>,
     /// The neighbour search's table, in which bubbles look for particles.
     pub(super) cell_starts: Vec<u32>,
 }
@@ -92,8 +94,8 @@ pub(super) fn record(
 }
 
 impl BubbleState {
-    /// The state without bubbles, of `count` particles in as many cells.
-    pub(super) fn start(parameters: &Parameters, count: usize, cells: u32) -> Self {
+    /// The state without bubbles, of `count` particles in as many cells and as many flasks.
+    pub(super) fn start(parameters: &Parameters, count: usize, cells: u32, flasks: usize) -> Self {
         let Some(bubbles) = parameters.bubbles() else {
             return Self::default();
         };
@@ -104,6 +106,7 @@ impl BubbleState {
             gas: vec![[0.0; 4]; count],
             merging: vec![[0; 3]; slots],
             falls: vec![[0.0; 2]; if bubbles.air { count } else { 0 }],
+            venting: vec![[0; 2]; flasks],
             cell_starts: vec![0; cells as usize],
         }
     }

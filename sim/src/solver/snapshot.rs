@@ -59,7 +59,7 @@ macro_rules! array {
 }
 
 /// All arrays of a state but the neighbour list's; the hash has them in this order.
-const ARRAYS: [Array; 26] = [
+const ARRAYS: [Array; 27] = [
     array!(position, positions, "positions", ByIdentity),
     array!(velocity, velocities, "velocities", ByIdentity),
     array!(tags, tags, "tags", ByIdentity),
@@ -81,6 +81,7 @@ const ARRAYS: [Array; 26] = [
     array!(gas, bubbles.gas, "gas", No),
     array!(merging, bubbles.merging, "joining bubbles", No, Zeros),
     array!(falls, bubbles.falls, "falls", No),
+    array!(venting, bubbles.venting, "gas that flasks let go", No),
     array!(cell_starts, bubbles.cell_starts, "cells", No),
     array!(drops, spray.drops, "drops", Whole),
     array!(sprayed, spray.sprayed, "sprayed particles", No),

@@ -90,7 +90,7 @@ impl SolverState {
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; wall_heat::ring_count(chemistry, flasks)],
             steam: SteamPasses::start(parameters, n, flasks),
-            bubbles: BubbleState::start(parameters, n, grid.cells()),
+            bubbles: BubbleState::start(parameters, n, grid.cells(), flasks),
             spray: SprayState::start(parameters, n, flasks),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],
@@ -203,6 +203,19 @@ impl SolverState {
     /// Whether the particle in a slot is still there.
     pub fn is_present(&self, slot: usize) -> bool {
         self.tags[slot][0] != REMOVED
+    }
+
+    /// Flow of the gas that bubbles of a flask let go, m³/s: the mean of the last tenth of a second.
+    pub fn vented_flow(&self, flask: usize) -> f64 {
+        let flow = self.bubbles.venting.get(flask);
+        flow.map_or(0.0, |&[_, bits]| f32::from_bits(bits).into())
+    }
+
+    /// Sets [`Self::vented_flow`], where the scene has bubbles and that flask.
+    pub fn set_vented_flow(&mut self, flask: usize, flow: f64) {
+        if let Some([_, bits]) = self.bubbles.venting.get_mut(flask) {
+            *bits = (flow as f32).to_bits();
+        }
     }
 
     /// Mass of the particle in a slot over that of one at rest density.

@@ -44,7 +44,7 @@ pub const CONSTANTS: [Constant; 7] = [
     Constant {
         key: "nuclei_spacing",
         unit: "m",
-        source: "chosen: glass that is clean",
+        source: "chosen between dirty and clean liquid (Brennen 1995)",
         value: |p| &mut p.nuclei_spacing,
     },
     Constant {

@@ -7,12 +7,14 @@
 //!include common/chemistry/slots.wgsl
 //!include common/chemistry/solution.wgsl
 
-/// Share of particles at which bubbles are born.
-override NUCLEI: f32 = 0.0;
+/// Excess pressure of vapour, over an atmosphere, at which as many nuclei grow as there are particles.
+override NUCLEUS_PRESSURE: f32 = 1e9;
 /// Time between two bubbles of a nucleus, s.
 override NUCLEUS_WAIT: f32 = 0.04;
 
-/// Superheat from which a nucleus grows, K.
+/// Latent heat of water over the gas constant of its vapour, K.
+const LATENT_TEMPERATURE: f32 = 4890.0;
+/// Superheat below which no nucleus grows, K: one would be wider than 30 µm, and such gas rises out of liquid.
 const NUCLEATION: f32 = 1.0;
 /// Least superheat of which a secant is taken, K.
 const SUPERHEATED: f32 = 0.01;
@@ -24,8 +26,19 @@ fn scattered(number: u32) -> u32 {
     return (word >> 22u) ^ word;
 }
 
-fn is_nucleus(identity: u32) -> bool {
-    return f32(scattered(identity) >> 8u) < NUCLEI * 16777216.0;
+/// Excess pressure of the vapour over an atmosphere in liquid of `temperature` (°C) that is `superheat` K above its boiling point
+/// (Clausius and Clapeyron).
+fn excess_pressure(superheat: f32, temperature: f32) -> f32 {
+    let absolute = temperature - ABSOLUTE_ZERO;
+    return exp(LATENT_TEMPERATURE * superheat / (absolute * (absolute - superheat))) - 1.0;
+}
+
+/// Whether a nucleus of a particle grows. One of radius R does where vapour exceeds the pressure by 2σ/R, and N(>R) ∝ R⁻³ (Brennen 1995,
+/// Cavitation and Bubble Dynamics): a particle's largest, by Poisson's law.
+fn nucleus_grows(identity: u32, superheat: f32, temperature: f32) -> bool {
+    if (superheat <= NUCLEATION) { return false; }
+    let chance = (f32(scattered(identity) >> 8u) + 0.5) / 16777216.0;
+    return excess_pressure(superheat, temperature) > NUCLEUS_PRESSURE * pow(-log(chance), 1.0 / 3.0);
 }
 
 /// Place of a bubble that is born at a particle at x: another one each time.

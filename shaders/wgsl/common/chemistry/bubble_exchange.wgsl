@@ -4,8 +4,9 @@
 //!include common/chemistry/quanta_sum.wgsl
 
 /// Most steam that all bubbles around a particle exchange with it in a step, V0·ρ0, and over what its superheat makes. How many bubbles
-/// there are is known of the step before; since then they may be more by what a radius grows, and a word of quanta holds 33 times that.
-const MOST_EXCHANGED: f32 = 0.03;
+/// there are is known of the step before; since then they may be more by what a radius grows and by those that were born, and a word of
+/// quanta holds 100 times that.
+const MOST_EXCHANGED: f32 = 0.01;
 const MOST_OF_SUPERHEAT: f32 = 0.5;
 /// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
 const MOST_GIVEN: f32 = 8.0;

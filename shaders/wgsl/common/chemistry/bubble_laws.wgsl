@@ -125,6 +125,19 @@ fn drainage_time(a: f32, b: f32, around: Around) -> f32 {
     return sqrt(mean * mean * mean * around.density / (16.0 * around.tension)) * FILM;
 }
 
+/// How long a film lasts at the surface, s; 0: until it has drained.
+override FOAM_TIME: f32 = 0.0;
+
+/// Time from which on a bubble that lies at the surface bursts, s: its film drains as that between it and a bubble without end, of which
+/// the mean radius r is twice its own, but besides 2σ/r its lift over its cross section presses on it. Surface tension holds no cap that is
+/// wider than a stable bubble.
+fn life_of_film(radius: f32, around: Around) -> f32 {
+    if (radius > stable_radius(around)) { return 0.0; }
+    if (FOAM_TIME > 0.0) { return FOAM_TIME; }
+    let pressure = around.tension / radius + 4.0 / 3.0 * around.density * GRAVITY * radius;
+    return radius * sqrt(0.5 * around.density / pressure) * FILM;
+}
+
 /// Radius beyond which bubbles do not join: larger ones are caps, which break up in a stirred pool (Ishii and Zuber 1979).
 fn stable_radius(around: Around) -> f32 {
     return 2.0 * sqrt(around.tension / (max(GRAVITY, 1e-6) * around.density));

@@ -11,9 +11,8 @@ const AT_GLASS: f32 = 0.2;
 const MOST_ACCELERATION: f32 = 1.0;
 /// Step of the differences by which the way from glass is found, m.
 const GAP_STEP: f32 = 2e-4;
-/// Where fewer neighbours than this are above, over a full neighbourhood's, a bubble is at the surface.
-const COVERED: f32 = 0.7;
-/// The same of a cavity: with more, those inside of a swarm would count as at its surface.
+/// Where fewer neighbours than this are above, over a full neighbourhood's, a cavity is at the surface: with more, those inside of a
+/// swarm would count as at its surface.
 const CAVITY_COVERED: f32 = 0.35;
 
 /// Velocity without what would carry it into glass.

@@ -7,8 +7,19 @@
 //!include common/liquid/cells_around.wgsl
 //!include common/liquid/lane_nearest.wgsl
 
-/// How far from its surface a bubble exchanges steam, over d: with less it would lie between particles.
-const CONTACT: f32 = 1.2;
+/// How far from its surface a bubble exchanges steam, m, as coarse particles do too, and at least over d: with less it would lie between
+/// particles. Chosen.
+const CONTACT: f32 = 3.5e-3;
+const LEAST_CONTACT: f32 = 1.2;
+
+fn contact_length() -> f32 {
+    return max(CONTACT, LEAST_CONTACT * SPACING);
+}
+
+/// How far from its surface a bubble has to do with liquid, m.
+fn reach_beyond() -> f32 {
+    return max(SUPPORT, contact_length());
+}
 
 /// How much a particle at a share q of the reach counts, by its square; FULL is its integral over reach³.
 const FULL: f32 = 0.957442;
@@ -19,7 +30,7 @@ fn share_at(square: f32) -> f32 {
 
 /// How much of a bubble's exchange a particle at that square of a distance has: those that touch it, or nearly.
 fn contact_at(square: f32, radius: f32) -> f32 {
-    let reach = radius + CONTACT * SPACING;
+    let reach = radius + contact_length();
     return share_at(square / (reach * reach));
 }
 
@@ -35,6 +46,9 @@ fn liquid_share(j: u32, distance: f32, bubble: Bubble) -> f32 {
     return clamp(1.0 - others, LEAST_LIQUID, 1.0);
 }
 
+/// Least share of a full neighbourhood that counts as what is below a bubble: where there is less, it lies at the bottom.
+const LEAST_BELOW: f32 = 0.4;
+
 /// How much what lies in a direction of that cosine with upwards covers a bubble: of a cavity what lies straight above it, as its sides
 /// may lie at glass. Both have the same integral over all directions.
 fn above_at(cosine: f32, cavity: f32) -> f32 {
@@ -46,6 +60,13 @@ fn above_at(cosine: f32, cavity: f32) -> f32 {
 fn covered_beyond(q: f32) -> f32 {
     let square = q * q;
     return 1.0 - q * square * (35.0 - square * (42.0 - 15.0 * square)) / 8.0;
+}
+
+/// What covers a place the share q of the reach under a level surface: ∫ cos θ (1 − r²)² over what of a ball's upper half lies below it,
+/// over that of the whole half.
+fn cover_under(q: f32) -> f32 {
+    let square = q * q;
+    return square * (7.0 + q * (-8.75 + square * (3.5 - 0.75 * square)));
 }
 
 /// The larger of two bubbles has the larger key.
@@ -66,6 +87,8 @@ struct Surrounding {
     /// Of what exchanges steam with it, which is nearer.
     contact: f32,
     cover: f32,
+    /// Share of its neighbourhood that is liquid.
+    filled: f32,
     velocity: vec3<f32>,
     acid: f32,
     temperature: f32,
@@ -81,6 +104,8 @@ struct Surrounding {
     larger: u32,
     /// Gas of what is around over what it can hold.
     crowded: f32,
+    /// Share of gas in what is around.
+    crowd: f32,
 }
 
 /// Of `bubble` in `slot` within `reach`, in cells `cells` around its own; others are those from `first` on. All lanes must ask.
@@ -90,6 +115,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.nearest_of_all = Nearest(1e9, 0u);
     let key = key_of(bubble, slot);
     let share = bubble.cavity;
+    var below = 0.0;
     let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), is_there(bubble));
     for (var n = lane; n < count; n += LANES) {
@@ -112,7 +138,10 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             let lack = contact * max(-boil.x, 0.0);
             s.weight += weight;
             s.contact += contact;
-            s.cover += above_at(max(dot(offset, up) / distance, 0.0), share) * weight * (1.0 + gas[tags[j].y].x) / liquid_share(j, distance, bubble);
+            let filled = weight * (1.0 + gas[tags[j].y].x) / liquid_share(j, distance, bubble);
+            let cosine = dot(offset, up) / distance;
+            s.cover += above_at(max(cosine, 0.0), share) * filled;
+            below += above_at(max(-cosine, 0.0), share) * filled;
             s.velocity += weight * velocity[j].xyz;
             s.temperature += weight * heat[j].x;
             s.acid += weight * heat[j].y;
@@ -122,12 +151,19 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             s.shrinking += lack * boil.z;
             s.nearest = nearer(s.nearest, Nearest(distance, j));
             let held = gas[tags[j].y];
-            s.crowded += weight * held.y / max(HELD * (unpack_bulk(bulk[j]).volume - held.x), 1e-3);
+            let extent = unpack_bulk(bulk[j]).volume;
+            s.crowded += weight * held.y / max(HELD * (extent - held.x), 1e-3);
+            s.crowd += weight * (1.0 - liquid_share(j, distance, bubble) * (1.0 - held.x / extent));
         }
     }
     s.weight = lane_sum(s.weight);
     let around = max(1.0 - share * (1.0 - covered_beyond(min(bubble.radius / reach, 1.0))), 0.1);
-    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * around * reach * reach * reach);
+    let whole = 4.0 * VOLUME / (FULL * around * reach * reach * reach);
+    // A bubble that particles hold has pushed them away, above it as below it.
+    let under = lane_sum(below) * whole;
+    s.cover = lane_sum(s.cover) * whole;
+    s.filled = 0.5 * (s.cover + under);
+    s.cover /= mix(clamp(under, LEAST_BELOW, 1.0), 1.0, share);
     s.crowded = lane_sum(s.crowded);
     s.velocity = lane_sum3(s.velocity);
     let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
@@ -140,6 +176,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.larger = lane_max(s.larger);
     s.velocity *= per_weight;
     s.crowded *= per_weight;
+    s.crowd = lane_sum(s.crowd) * per_weight;
     s.temperature = thermal.x * per_weight;
     s.acid = thermal.y * per_weight;
     s.superheat = excess.x / max(s.contact, 1e-12);

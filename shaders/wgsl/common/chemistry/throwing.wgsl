@@ -93,7 +93,7 @@ fn spray(bubble: Bubble, slot: u32, way: u32, burst: Burst, s: Surrounding, arou
             let side = sideways(up, slot, seed);
             let leans = LEANS * lot(seed, slot);
             let direction = select(side + leans * up, up + leans * side, way == OF_JET);
-            throw_up(place, bubble, s, burst, liquid, around.density, normalize(direction), up);
+            throw_up(place, bubble, s, burst, liquid, around.density, direction, up);
         }
     }
 }

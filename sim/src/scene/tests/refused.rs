@@ -341,9 +341,24 @@ fn tables_boil_by_bubbles_alone() {
     assert!(both.contains("the paper's"), "{both}");
     let idle = message(good.replacen("lamella", "superheat_time = 0.03\nlamella", 1));
     assert!(idle.contains("physical.superheat_time"), "{idle}");
-    let lines = good.lines().filter(|line| !line.starts_with("foam_time"));
+    let lines = good
+        .lines()
+        .filter(|line| !line.starts_with("most_bubbles"));
     let without = message(lines.collect::<Vec<_>>().join("\n"));
-    assert!(without.contains("physical.foam_time"), "{without}");
+    assert!(without.contains("physical.most_bubbles"), "{without}");
+    // Bubbles have their number of nuclei by lot and their time at the surface by a law; what is said must fit.
+    let keys = ["nuclei_spacing", "foam_time"];
+    let lines = good.lines().filter(|line| !line.starts_with(keys[0]));
+    let without = lines.collect::<Vec<_>>().join("\n");
+    Scene::parse(&without, "b.toml").unwrap();
+    for key in keys {
+        let zero = format!("{key} = 0.0\nmost_bubbles");
+        let zero = message(without.replacen("most_bubbles", &zero, 1));
+        assert!(zero.contains(key) && zero.contains("above zero"), "{zero}");
+        let idle = without.replacen("\"bubbles\", \"spray\", \"air\", ", "", 1);
+        let idle = message(idle.replacen("most_bubbles = 16384", &format!("{key} = 0.1"), 1));
+        assert!(idle.contains(key), "{idle}");
+    }
     let none = message(good.replacen("most_bubbles = 16384", "most_bubbles = 0", 1));
     assert!(
         none.contains("most_bubbles") && none.contains("from 1 to 65,536"),

@@ -160,14 +160,14 @@ fn air_that_glass_stops_keeps_the_ledger() {
     let device = gpu::device();
     for lanes in lanes(&device) {
         let mut pour = pour(D, 0.04, 1.5, 0.005);
-        fill(&mut pour.setup.particles, |_| (112.0, 0.0));
+        fill(&mut pour.setup.particles, |_| (106.0, 0.0));
         pour.setup.lanes = Some(lanes);
         if let Some(Chemistry::Physical(Physical {
             bubbles: Some(bubbles),
             ..
         })) = &mut pour.setup.parameters.chemistry
         {
-            bubbles.nuclei_spacing = 0.004;
+            bubbles.nuclei_spacing = 0.02;
         }
         let solver = pour.setup.solver(&device);
         let start = ledger(&solver);
@@ -220,6 +220,8 @@ fn air_that_bursts_in_acid_keeps_the_ledger() {
         solver.restore(&state).unwrap();
         frames(&device, &solver, &[Pose::IDENTITY], 4);
     }
+    // Until most drops that fly have come down.
+    frames(&device, &solver, &[Pose::IDENTITY], 12);
     let end = ledger(&solver);
     eprintln!("{:e} {end:?}", end.closure(&start));
     assert!(end.spray_fallen > 1e-5 && end.steam > 1e-5, "{end:?}");

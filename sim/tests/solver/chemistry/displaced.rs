@@ -19,7 +19,7 @@ use vitriol_tests::gpu;
 fn lasting() -> Physical {
     Physical {
         bubbles: bubbly().bubbles.map(|bubbles| Bubbles {
-            foam_time: 100.0,
+            foam_time: Some(100.0),
             ..bubbles
         }),
         ..bubbly()

@@ -38,12 +38,12 @@ pub fn paper(dilution: Option<PaperDilution>, boiling: Option<PaperBoiling>) -> 
     Chemistry::Paper(Paper { dilution, boiling })
 }
 
-/// Bubbles of steam that are born nowhere, and last at the surface for 0.1 s.
+/// Bubbles of steam that are born nowhere.
 pub fn bubbly() -> Physical {
     Physical {
         bubbles: Some(Bubbles {
-            nuclei_spacing: 1.0,
-            foam_time: 0.1,
+            nuclei_spacing: 1e3,
+            foam_time: None,
             most: 4096,
             spray: false,
             air: false,
