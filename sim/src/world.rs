@@ -3,6 +3,7 @@
 
 mod bodies;
 mod lifeline;
+mod loads;
 mod look;
 mod start;
 mod tools;
@@ -11,26 +12,20 @@ pub use lifeline::{Kept, Lifeline, StateRecord};
 pub use look::Look;
 pub use start::{ground, particles};
 
-use crate::bodies::{Bodies, BodiesError, Hand, Load};
+use crate::bodies::{Bodies, BodiesError, Hand};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::scene::{Boundary, Scene};
-use crate::solver::{Counters, FrameRecord, Solver, SolverError, SolverSpec, SolverState};
-use glam::Vec3;
+use crate::solver::{Counters, Solver, SolverError, SolverSpec, SolverState};
 use lifeline::Act;
+use loads::{LOAD_DELAY, PendingLoad};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use thiserror::Error;
 use vitriol_gpu::{Gpu, GpuError, QueueKind, Ticket};
 use vitriol_shaders::Library;
-use vitriol_shaders::layout::LiquidLoad;
-
-/// Steps after which the liquid's push acts on a flask. Two, always: by then
-/// the device has finished the frame, so that no step waits for it, and a
-/// replay has the same bits as the live session.
-const LOAD_DELAY: usize = 2;
 
 /// Most substeps of a step over the scene's, however fast a flask is.
 const MOST_TIMES: u32 = 3;
@@ -115,12 +110,6 @@ pub struct World {
     last: Option<Ticket>,
     /// Acts and state for [`World::revive`]; `None` until [`World::follow`].
     lifeline: Option<Lifeline>,
-}
-
-/// A step's loads, on the device still or read already.
-enum PendingLoad {
-    Device(FrameRecord, Ticket),
-    Host(Vec<LiquidLoad>),
 }
 
 impl World {
@@ -385,18 +374,6 @@ impl World {
         self.stirring.get(flask).copied().unwrap_or(0.0)
     }
 
-    /// Impulse of the liquid on each flask in the last step, which acts on the flask
-    /// two steps later; empty where no flask can move. Waits for the device.
-    ///
-    /// # Errors
-    /// [`WorldError`] where the device fails.
-    pub fn loads(&self) -> Result<Vec<Load>, WorldError> {
-        let Some(newest) = self.loads.back() else {
-            return Ok(Vec::new());
-        };
-        Ok(self.in_si(&newest.read()?))
-    }
-
     /// Events counted so far; waits for the device.
     ///
     /// # Errors
@@ -441,64 +418,5 @@ impl World {
     /// that reads its particles.
     fn wait(&self) -> Result<(), WorldError> {
         Ok(self.last.as_ref().map_or(Ok(()), Ticket::wait)?)
-    }
-
-    /// The liquid's loads on the flasks of [`LOAD_DELAY`] steps ago; empty before there are any.
-    fn due_loads(&mut self) -> Result<Vec<Load>, WorldError> {
-        if self.loads.len() < LOAD_DELAY {
-            return Ok(Vec::new());
-        }
-        let Some(due) = self.loads.pop_front() else {
-            return Ok(Vec::new());
-        };
-        let loads = due.read()?;
-        for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
-            *stirring = sum.angular[3];
-        }
-        Ok(self.in_si(&loads))
-    }
-
-    fn in_si(&self, loads: &[LiquidLoad]) -> Vec<Load> {
-        let mass = self.solver.parameters().particle_mass() as f32;
-        loads
-            .iter()
-            .zip(self.bodies.poses())
-            .map(|(sum, pose)| load(sum, *pose, mass))
-            .collect()
-    }
-}
-
-impl PendingLoad {
-    fn is_done(&self) -> Result<bool, WorldError> {
-        match self {
-            Self::Device(_, ticket) => Ok(ticket.is_done()?),
-            Self::Host(_) => Ok(true),
-        }
-    }
-
-    fn read(&self) -> Result<Vec<LiquidLoad>, SolverError> {
-        match self {
-            Self::Device(record, ticket) => {
-                // Checked first: a caller that steps only when the world is ready does not wait.
-                if !ticket.is_done()? {
-                    ticket.wait()?;
-                }
-                record.loads()
-            }
-            Self::Host(loads) => Ok(loads.clone()),
-        }
-    }
-}
-
-/// A flask's load from its sums over particles.
-fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
-    let axes = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let number = sum.impulse[3];
-    let offset = axes(sum.offsets) / number.max(1.0);
-    Load {
-        impulse: axes(sum.impulse),
-        angular_impulse: axes(sum.angular),
-        liquid_mass: number * particle_mass,
-        liquid_centre: stage_from_flask.orientation.inverse() * offset,
     }
 }

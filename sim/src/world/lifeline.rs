@@ -1,6 +1,7 @@
 //! Recovery of a world after its device is lost: from a state on the host and the acts since then.
 
-use super::{Look, PendingLoad, StepInput, World, WorldError, WorldState};
+use super::loads::PendingLoad;
+use super::{Look, StepInput, World, WorldError, WorldState};
 use crate::solver::{LooksMemory, LooksMemoryRecord, SkinPart, SolverStateRecord};
 use std::sync::Arc;
 use vitriol_gpu::{QueueKind, Recorder};
