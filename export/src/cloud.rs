@@ -42,39 +42,36 @@ impl Cloud {
         })
     }
 
-    /// The flights of drops of a state, with a drop's radius (m), the number of drops, whether a film (1) or a jet (0) threw them, and
-    /// velocity (m/s); `None` where a scene's bubbles throw up none.
+    /// The flights of drops of a state, with a drop's radius (m), the number of drops, how far about their place they lie (m; 0 of those
+    /// behind one another) and velocity (m/s); `None` where a scene's bubbles throw up none.
     pub fn of_spray(scene: &Scene, parameters: &Parameters, state: &SolverState) -> Option<Self> {
         if parameters.bubbles()?.places_of_drops() == 0 {
             return None;
         }
         let scale = scene.scale.length_scale;
         let all = || {
-            let records = state.drops().iter().enumerate();
             let flies = |mass: f32, radius: f32, density: f32| mass.min(radius).min(density) > 0.0;
-            records.filter(move |(_, drops)| flies(drops.mass, drops.radius, drops.density))
+            let records = state.drops().iter();
+            records.filter(move |drops| flies(drops.mass, drops.radius, drops.density))
         };
         let mass = parameters.particle_mass();
         let number = |held: f32, radius: f32, density: f32| {
             let volume = 4.0 / 3.0 * PI * f64::from(radius).powi(3);
             mass * f64::from(held) / (f64::from(density) * volume)
         };
-        let along = |axis: usize| all().map(move |(_, d)| scale * f64::from(d.velocity[axis]));
+        let along = |axis: usize| all().map(move |d| scale * f64::from(d.velocity[axis]));
         Some(Self {
-            positions: all().map(|(_, d)| place(scene, d.position)).collect(),
+            positions: all().map(|d| place(scene, d.position)).collect(),
             columns: vec![
                 (
                     "radius",
-                    all().map(|(_, d)| scale * f64::from(d.radius)).collect(),
+                    all().map(|d| scale * f64::from(d.radius)).collect(),
                 ),
                 (
                     "drops",
-                    all()
-                        .map(|(_, d)| number(d.mass, d.radius, d.density))
-                        .collect(),
+                    all().map(|d| number(d.mass, d.radius, d.density)).collect(),
                 ),
-                // A bubble's first record is of its jet.
-                ("film", all().map(|(n, _)| (n % 2) as f64).collect()),
+                ("about", all().map(|d| scale * f64::from(d.about)).collect()),
                 ("vx", along(0).collect()),
                 ("vy", along(1).collect()),
                 ("vz", along(2).collect()),

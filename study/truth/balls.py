@@ -8,10 +8,10 @@ import numpy as np
 
 # Halvings of an icosahedron's edges: 1280 faces a ball, that lie within 0.5 % of its radius.
 HALVINGS = 3
-# From drop to drop of a jet, in their radii, and the length that a film's drops have their size from, m: as
-# `shaders/wgsl/common/picture/spray_drops.wgsl` says, with its sources. Of a film it draws eight drops at most, here all are there.
+# From drop to drop of a jet, in their radii, and most drops of a flight: as `shaders/wgsl/common/picture/spray_drops.wgsl` says, with its
+# source.
 JET_STEP = 4.77
-FILM_LENGTH_TO_DROPS = 13.0
+MOST_DROPS = 8
 # Finer drops are not seen: 20 µm are a twentieth of a pixel at half a metre.
 LEAST_DROP = 2e-5
 
@@ -88,7 +88,7 @@ def bubbles(file):
 
 
 def spray(file):
-    """Drops of `spray-N.ply` as a mesh; None for none. A jet's are behind one another, a film's as far about as their bubble reached."""
+    """Drops of `spray-N.ply` as a mesh; None for none. A jet's are behind one another, others lie about."""
     found = cloud(file)
     random = np.random.default_rng(1)
     places, radii = [], []
@@ -99,9 +99,9 @@ def spray(file):
         velocity = np.array([found[axis][n] for axis in ("vx", "vy", "vz")])
         speed = np.linalg.norm(velocity)
         back = -JET_STEP * radius * velocity / speed if speed > 0.0 else np.zeros(3)
-        reach = (FILM_LENGTH_TO_DROPS * radius) ** (1.0 / 1.625)
-        for k in range(max(int(found["drops"][n] + 0.5), 1)):
-            aside = reach * random.uniform(-1.0, 1.0, 3) if found["film"][n] else k * back
+        reach = found["about"][n]
+        for k in range(min(max(int(found["drops"][n] + 0.5), 1), MOST_DROPS)):
+            aside = reach * random.uniform(-1.0, 1.0, 3) if reach > 0.0 else k * back
             places.append(first + aside)
             radii.append(radius)
     return balls("spray", np.array(places), radii, 2) if places else None

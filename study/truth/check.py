@@ -286,7 +286,7 @@ class Formulas(unittest.TestCase):
         text = (SHADERS / "spray_drops.wgsl").read_text()
         number = lambda name: float(re.search(rf"const {name} = ([\d.]+)", text).group(1))
         self.assertEqual(number("JET_STEP"), balls.JET_STEP)
-        self.assertEqual(number("FILM_LENGTH_TO_DROPS"), balls.FILM_LENGTH_TO_DROPS)
+        self.assertEqual(number("MOST_DROPS"), balls.MOST_DROPS)
 
     def test_flip_of_a_picture_with_itself_is_0(self):
         picture = np.random.default_rng(1).random((64, 64, 3), np.float32)

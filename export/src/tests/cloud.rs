@@ -54,14 +54,14 @@ fn clouds_are_what_is_in_the_world() {
             .solver
             .put_bubble(&parameters, 7 + 3 * n, 1, still, [radius, 100.0]);
     }
-    // Four drops of a jet: a record's mass is that of all of them over a particle's.
+    // Four drops that lie about: a record's mass is that of all of them over a particle's.
     let (radius, density) = (0.4e-3, 960.0);
     let held = 4.0 * density * 4.0 / 3.0 * PI * radius * radius * radius;
     let drops = &mut state.solver.drops_mut()[14];
     drops.position = (base + DVec3::Y * 0.2).as_vec3().to_array();
     drops.velocity = [0.1, 2.0, -0.3];
     (drops.mass, drops.radius) = ((held / parameters.particle_mass()) as f32, radius as f32);
-    drops.density = density as f32;
+    (drops.density, drops.about) = (density as f32, 0.003);
     world.restore(&state).unwrap();
 
     let census = world.look_on(QueueKind::Main, &[]).unwrap().get().unwrap();
@@ -101,11 +101,11 @@ fn clouds_are_what_is_in_the_world() {
     let (_, points) = read(&ply::points(&spray, "spray"), 9);
     assert_eq!(points.len(), 1);
     let first = <[f32; 9]>::try_from(&points[0][..]).unwrap();
-    let [_, y, _, drawn, number, film, vx, vy, vz] = first;
+    let [_, y, _, drawn, number, about, vx, vy, vz] = first;
     assert!((f64::from(y) - base.y - 0.2).abs() < 1e-6);
     assert!((f64::from(drawn) / radius - 1.0).abs() < 1e-6);
     assert!((number - 4.0).abs() < 1e-4, "{number}");
-    assert_eq!((film, [vx, vy, vz]), (0.0, [0.1, 2.0, -0.3]));
+    assert_eq!((about, [vx, vy, vz]), (0.003, [0.1, 2.0, -0.3]));
 
     scene.scale.length_scale = 0.05;
     let small = Cloud::of_bubbles(&scene, &parameters, &state).unwrap();

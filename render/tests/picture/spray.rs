@@ -19,25 +19,25 @@ fn view() -> View {
     View::look_at(eye, eye - Vec3::Z, Fov::symmetric(field, 4.0 / 3.0))
 }
 
-/// Index of jets and of films among the two flights of a bubble.
-const JET: usize = 0;
-const FILM: usize = 1;
+/// How far about their place drops of a jet lie, and of a film that was here, m.
+const JET: f32 = 0.0;
+const FILM: f32 = 0.006;
 
 /// A picture of flights of jets: places (m, from the middle), radius of a drop (m) and number of drops in each.
 fn drawn(rig: &Rig, places: &[[f32; 2]], radius: f32, number: f32) -> Picture {
     drawn_before(rig, &[], JET, places, radius, number)
 }
 
-/// A picture of flights of one `kind`, [`JET`] or [`FILM`], behind a hand; parameters are those of [`drawn`].
+/// A picture of flights whose drops lie `about` (m), [`JET`] or [`FILM`], behind a hand; parameters are those of [`drawn`].
 fn drawn_before(
     rig: &Rig,
     hand: &[Bone],
-    kind: usize,
+    about: f32,
     places: &[[f32; 2]],
     radius: f32,
     number: f32,
 ) -> Picture {
-    drawn_in(rig, &[view()], hand, kind, places, (radius, number))
+    drawn_in(rig, &[view()], hand, about, places, (radius, number))
 }
 
 /// A picture as of [`drawn_before`], in the views `views`.
@@ -45,19 +45,20 @@ fn drawn_in(
     rig: &Rig,
     views: &[View],
     hand: &[Bone],
-    kind: usize,
+    about: f32,
     places: &[[f32; 2]],
     (radius, number): (f32, f32),
 ) -> Picture {
     let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
     let mut drops = vec![Drops::default(); 2 * places.len().max(1)];
     for (n, place) in places.iter().enumerate() {
-        drops[2 * n + kind] = Drops {
+        drops[2 * n] = Drops {
             position: [place[0], 1.0 + place[1], -DISTANCE],
             velocity: [1.0, 0.0, 0.0],
             mass: number * volume * 1000.0 / MASS,
             density: 1000.0,
             radius,
+            about,
             ..Drops::default()
         };
     }
@@ -191,18 +192,17 @@ fn changed(a: &Picture, b: &Picture) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Drops of a film fly about as far as their bubble reached: R = (2 r 20^0.625)^(1/1.625) by Lhuissier and Villermaux.
+/// Drops of a film fly as far about as their bubble reached.
 #[test]
 fn drops_of_a_film_are_about_their_bubble() {
     let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
     let radius = 2e-4_f32;
     let plain = drawn(&rig, &[], 0.0, 0.0);
     let picture = drawn_before(&rig, &[], FILM, &[[0.0, 0.0]], radius, 8.0);
-    let reach = (2.0 * f64::from(radius) * 20_f64.powf(0.625)).powf(1.0 / 1.625);
     let places = changed(&picture, &plain);
     let aside = |at: &[f64; 3]| (at[0] - 159.5).abs().max((at[1] - 119.5).abs());
     let furthest = places.iter().map(aside).fold(0.0, f64::max);
-    let pixels = reach * FOCAL / f64::from(DISTANCE);
+    let pixels = f64::from(FILM) * FOCAL / f64::from(DISTANCE);
     // Nearer ones are seen a little larger; the place of each is a lot in a cube.
     assert!(
         (0.5 * pixels..1.1 * pixels + 2.0).contains(&furthest),

@@ -20,6 +20,8 @@ struct Drops {
     memberships: u32,
     /// What stayed on glass, table and floor since the start: mass, acid and enthalpy.
     fallen: vec3<f32>,
+    /// How far about their place they lie, m; 0 of a jet's, which lie behind one another.
+    about: f32,
 }
 
 /// Which of a bubble's two records: drops of its jet, and of its film.

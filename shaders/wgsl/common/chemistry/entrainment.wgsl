@@ -6,13 +6,15 @@
 const CHURNS: f32 = 0.5;
 /// Viscosity of steam at 100 °C, Pa s.
 const STEAM_VISCOSITY: f32 = 1.23e-5;
-/// Volume of the liquid that is thrown up over that of the gas, of liquid and gas alike dense: their Eq. for what is near the surface.
+/// Volume of the liquid that is thrown up over that of the gas: what they have near the surface.
 const THROWN_UP: f32 = 4.84e-3;
 /// Mass of liquid over that of gas which passes the height where the momentum of drops no longer decides alone.
 const AT_KINK: f32 = 1.0e-3;
 /// Exponents of height above it and below it.
 const ABOVE_KINK: f32 = 3.0;
 const BELOW_KINK: f32 = 7.0;
+/// j*/h* below which the exponent is 1: their region of low flux.
+const LOW_FLUX: f32 = 6.39e-4;
 /// Greatest height of a drop over that height.
 const HIGHEST: f32 = 20.0;
 /// Greatest diameter of a drop over the capillary length, and exponent of the mass of finer ones: chosen, as with them the fog that
@@ -40,7 +42,8 @@ fn churns(pool: Pool, around: Around) -> bool {
 
 /// Drops that go with `volume` of gas (m³), of one speed (upwards) and size by the lots `fast` and `small`. Heights follow from the speed
 /// without drag. The mean mass over all lots is THROWN_UP times gas; the share that starts faster than for the height y h_t is
-/// s y^-3 above y = 1 and s y^-7 below it, at most 1, where s = AT_KINK over what is thrown up.
+/// s y^-7 below y = 1, s y^-3 from there to where j*/h* is LOW_FLUX, and as y^-1 above that; at most 1, where s = AT_KINK over what is
+/// thrown up.
 fn entrained(volume: f32, pool: Pool, around: Around, fast: f32, small: f32) -> Burst {
     let ratio = pool.gas_density / around.density;
     let capillary = sqrt(around.tension / (around.density * GRAVITY));
@@ -51,8 +54,11 @@ fn entrained(volume: f32, pool: Pool, around: Around, fast: f32, small: f32) -> 
     let at_kink = AT_KINK * ratio / THROWN_UP;
     let share = pow(fast, FAST_LOTS);
     let relative = at_kink / share;
-    let height = min(pow(relative, 1.0 / select(BELOW_KINK, ABOVE_KINK, relative > 1.0)), HIGHEST) * kink;
+    let low = high / LOW_FLUX;
+    var height = pow(relative, 1.0 / select(BELOW_KINK, ABOVE_KINK, relative > 1.0));
+    if (height > low) { height = relative / (low * low); }
+    height = min(height, HIGHEST) * kink;
     let weight = FAST_LOTS * pow(fast, FAST_LOTS - 1.0) * SMALL_LOTS * pow(small, SMALL_LOTS - 1.0);
     let radius = 0.5 * WIDEST_DROP * capillary * pow(small, SMALL_LOTS / FINER);
-    return Burst(radius, THROWN_UP * volume * weight / bubble_volume(radius), sqrt(2.0 * GRAVITY * height));
+    return Burst(radius, THROWN_UP * volume * weight / bubble_volume(radius), sqrt(2.0 * GRAVITY * height), radius_of_volume(volume));
 }

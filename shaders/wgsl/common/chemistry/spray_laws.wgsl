@@ -9,6 +9,8 @@ struct Burst {
     number: f32,
     /// m/s.
     speed: f32,
+    /// How far about their place they lie, m; 0 of drops in a row.
+    about: f32,
 }
 
 /// Laplace number ρσR/μ² below which viscosity leaves no jet, and that above which it plays no part
@@ -34,7 +36,7 @@ fn jet_of(radius: f32, around: Around, crowd: f32, which: f32) -> Burst {
     let per_viscosity = around.density * around.tension / (around.viscosity * around.viscosity);
     let laplace = min(per_viscosity * radius, MOST_LAPLACE);
     let bond = around.density * GRAVITY * radius * radius / around.tension;
-    if (laplace <= LEAST_LAPLACE || bond >= MOST_BOND) { return Burst(0.0, 0.0, 0.0); }
+    if (laplace <= LEAST_LAPLACE || bond >= MOST_BOND) { return Burst(0.0, 0.0, 0.0, 0.0); }
     // Towards the least Laplace number the law's speed grows without end.
     let excess = max(laplace * (inverseSqrt(LEAST_LAPLACE) - inverseSqrt(laplace)), 1.0);
     let neighbours = min(crowd / CLOSEST, 1.0);
@@ -42,7 +44,7 @@ fn jet_of(radius: f32, around: Around, crowd: f32, which: f32) -> Burst {
     let capillary = sqrt(around.tension / (around.density * radius));
     let speed = 19.0 * capillary * sqrt(laplace) * pow(excess * (1.0 + 2.2 * bond), -0.75);
     let number = 7.0 * exp(-radius / 3e-3);
-    return Burst(size, number, speed * max(1.0 - floor(which * number) / number, 0.0));
+    return Burst(size, number, speed * max(1.0 - floor(which * number) / number, 0.0), 0.0);
 }
 
 /// Radius from which on drops of films are followed: those of smaller bubbles are micrometres wide.
@@ -62,13 +64,13 @@ fn film_thickness(radius: f32, time: f32, around: Around) -> f32 {
 /// 0.04 (R/a)² (R/h)^(7/8) with the capillary length a, and the speed √(2σ/(ρh)) at which the film opens. They have no more
 /// liquid than half a sphere's film.
 fn film_of(radius: f32, time: f32, around: Around) -> Burst {
-    if (radius < FILM_FROM || GRAVITY <= 0.0) { return Burst(0.0, 0.0, 0.0); }
+    if (radius < FILM_FROM || GRAVITY <= 0.0) { return Burst(0.0, 0.0, 0.0, 0.0); }
     let thickness = film_thickness(radius, time, around);
     let capillary_square = around.tension / (around.density * GRAVITY);
     let size = 0.5 * pow(radius, 0.375) * pow(thickness, 0.625);
     let number = 0.04 * radius * radius / capillary_square * pow(radius / thickness, 0.875);
     let most = 2.0 * BUBBLE_PI * radius * radius * thickness / bubble_volume(size);
-    return Burst(size, min(number, most), sqrt(2.0 * around.tension / (around.density * thickness)));
+    return Burst(size, min(number, most), sqrt(2.0 * around.tension / (around.density * thickness)), radius);
 }
 
 /// Air of 20 °C: kg/m³ and Pa s.

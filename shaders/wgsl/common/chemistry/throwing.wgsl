@@ -77,6 +77,7 @@ fn throw_up(place: u32, bubble: Bubble, s: Surrounding, burst: Burst, liquid: Li
     drops[place].enthalpy = liquid.enthalpy;
     drops[place].radius = burst.radius;
     drops[place].density = density;
+    drops[place].about = burst.about;
     drops[place].memberships = bubble.membership | (bubble.membership << 16u);
 }
 

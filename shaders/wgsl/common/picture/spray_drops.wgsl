@@ -11,12 +11,13 @@ struct Flight {
     radius: f32,
     /// In which it flies, of length 1; 0 for one at rest.
     direction: vec3<f32>,
-    /// How many drops it has; 0 for none. Those of a film have `OF_A_FILM` added.
+    /// How many drops it has; 0 for none.
     drops: u32,
+    /// How far about its place they lie, in the scene's unit; 0 of a jet's, which lie behind one another.
+    about: f32,
 }
 
-const OF_A_FILM = 0x100u;
-/// Most drops that are drawn of a flight; a jet has seven at most.
+/// Most drops that are drawn of a flight: a jet has seven at most.
 const MOST_DROPS = 8u;
 /// Places of flights are mostly empty. So a list says which are not: workgroups along x, y and z of a dispatch over it, an invocation a drop and view; how many
 /// are listed; and from `FLYING` on their numbers, in any order.
@@ -24,25 +25,16 @@ const FLYING = 4u;
 const FLIGHTS_GROUP = 64u;
 /// From drop to drop of a jet, in their radii: it breaks up 9.01 of its own radii apart, and a drop has 1.89 (Rayleigh 1878).
 const JET_STEP = 4.77;
-/// The thickness of a film that bursts is its bubble's radius squared over this, m; its drops' radius then is the bubble's to the power 1.625 over twice
-/// this to the power 0.625 (Lhuissier and Villermaux 2012).
-const FILM_LENGTH_TO_DROPS = 13.0;
-
-fn drops_of(flight: Flight) -> u32 {
-    return flight.drops & 0xffu;
-}
 
 /// How unevenly a jet breaks up: along it, over a step; and beside it, in radii. Chosen: waves of other lengths grow nearly as fast.
 const UNEVEN_STEP = 0.2;
 const UNEVEN_SIDE = 1.5;
 
-/// Where drop k of a flight is: behind one another in a jet, and as far about as their bubble reached where a film threw them.
+/// Where drop k of a flight is.
 fn drop_place(flight: Flight, number: u32, k: u32) -> vec3<f32> {
     let seed = 3u * (number * MOST_DROPS + k);
     let lots = 2.0 * vec3<f32>(lot(seed, 1u), lot(seed + 1u, 1u), lot(seed + 2u, 1u)) - 1.0;
-    if (flight.drops >= OF_A_FILM) {
-        return flight.position + pow(FILM_LENGTH_TO_DROPS * flight.radius, 1.0 / 1.625) * lots;
-    }
+    if (flight.about > 0.0) { return flight.position + flight.about * lots; }
     if (k == 0u) { return flight.position; }
     let aside = lots - dot(lots, flight.direction) * flight.direction;
     let back = (f32(k) + UNEVEN_STEP * lots.x) * JET_STEP;

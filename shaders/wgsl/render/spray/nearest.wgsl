@@ -26,7 +26,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let number = flying[FLYING + place];
     let eye = id.y;
     let flight = flights[number];
-    if (k >= drops_of(flight)) { return; }
+    if (k >= flight.drops) { return; }
     let view = &frame.views[eye];
     let centre = drop_place(flight, number, k);
     let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
