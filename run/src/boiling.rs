@@ -37,20 +37,23 @@ fn most_steam(samples: &[Sample]) -> Option<f64> {
         let is_before = |begin: &&Sample| end.t_s - begin.t_s >= WINDOW - ROUNDING;
         let begin = samples[..index].iter().rev().find(is_before)?;
         let left = ledger(end)?.steam_kg - ledger(begin)?.steam_kg;
-        Some(STEAM * left / ((end.t_s - begin.t_s) * hottest_surface(end)?))
+        let (flask, surface) = hottest_surface(end)?;
+        // Of what has just boiled away or out little is left, over which earlier steam came.
+        let before = begin.surface_m2.get(flask).copied().unwrap_or_default();
+        Some(STEAM * left / ((end.t_s - begin.t_s) * surface.max(before)))
     });
     speeds.reduce(f64::max)
 }
 
-/// Surface of the liquid in the flask with the hottest particle, m².
-fn hottest_surface(sample: &Sample) -> Option<f64> {
+/// The flask with the hottest particle, and the surface of its liquid, m².
+fn hottest_surface(sample: &Sample) -> Option<(&str, f64)> {
     let heat = sample.heat.as_ref()?;
     let hottest = heat
         .temperatures_in_flasks_c
         .iter()
         .max_by(|(_, [_, a]), (_, [_, b])| a.total_cmp(b));
     let (flask, _) = hottest?;
-    sample.surface_m2.get(flask).copied()
+    Some((flask, *sample.surface_m2.get(flask)?))
 }
 
 /// What left the flask in the first seconds after contact, kg; `None` where the run ends before.
@@ -130,6 +133,16 @@ mod tests {
         is_near(found.most_gas_m3, 3e-6);
         is_near(found.thrown_first_kg, 8e-5);
         assert_eq!(found.highest_drop_m, Some(0.12));
+    }
+
+    /// In a flask that is nearly empty at the end of the window the steam came over what was there at its beginning.
+    #[test]
+    fn steam_of_a_flask_that_empties_came_over_what_was_there() {
+        let mut emptied = series();
+        emptied.truncate(16);
+        emptied[15].surface_m2.insert("hot".into(), 1e-5);
+        let found = boiling(&emptied, true, None);
+        is_near(found.most_steam_m_s, STEAM * 2.1e-3 / (0.5 * 5e-3));
     }
 
     /// The same run goes on for twice as long, with nothing but a little steam and drops that are poured off.
