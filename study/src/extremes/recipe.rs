@@ -239,7 +239,7 @@ impl Recipe {
                 "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\nlamella = 0.0003\n\
                  nuclei_spacing = {:?}\nmost_bubbles = 4096\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
-                0.004 / self.k_v.max(1e-3).cbrt()
+                0.04 / self.k_v.max(1e-3).cbrt()
             ),
         };
         let [x, y, z] = self.place;
