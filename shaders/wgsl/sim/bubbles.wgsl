@@ -203,7 +203,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     if (s.weight > 0.0) { bubble.air_temperature = s.temperature; }
     bubble.cavity = cavity_of(bubble, s);
     let around = around_of(s.acid, s.temperature);
-    let is_open = s.filled < LEAST_FILLED && any(up != vec3<f32>(0.0));
+    // Only lane 0 has a map's wall; what glass takes holds no liquid.
+    let held_by_drops = lane == 0u && s.filled < LEAST_FILLED * max(1.0 - wall_volume(wall), LEAST_BESIDE_GLASS);
+    let is_open = lane_max(u32(held_by_drops)) > 0u && any(up != vec3<f32>(0.0));
     let bursts = is_open || bubble.surfaced > life_of_film(bubble.radius, around);
     if (SPRAY) {
         var jet: Burst;
@@ -222,7 +224,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     }
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
-    // Only lane 0 has a map's wall.
     let deepest = bubble.radius + select(0.0, STAYS, bubble.surfaced > 0.0);
     let covered = mix(cover_under(min(deepest / reach, 1.0)), CAVITY_COVERED, bubble.cavity);
     let uncovered = lane == 0u && cover_of(s.cover, wall, up) < covered;

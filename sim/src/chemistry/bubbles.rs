@@ -23,10 +23,6 @@ const GROUP: u32 = 64;
 /// Steps of the bubbles in a frame: one goes a millimetre or less in it. An even number, as they have two sets of records.
 const STEPS: u32 = 4;
 
-/// Time between two bubbles of a nucleus, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at 100 °C, and
-/// bubbles leave with 4 mm (chosen, as they leave what is clean).
-pub const NUCLEUS_WAIT: f64 = 0.004 / 0.092;
-
 /// Excess pressure over an atmosphere of water's vapour 1 K above the boiling point, by Clausius and Clapeyron with 4890 K for the latent
 /// heat over the gas constant. A nucleus of 33 µm grows at it.
 const WOKEN: f64 = 0.0357;

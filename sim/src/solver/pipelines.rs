@@ -8,7 +8,6 @@ use super::vapour::dew_places;
 use super::vessels::PLANE_ENTRIES;
 use super::wall_heat;
 use super::{SolverError, SolverSpec};
-use crate::chemistry::bubbles::NUCLEUS_WAIT;
 use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
@@ -273,7 +272,6 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
             ("SPRAY", flag(bubbles.spray)),
             ("AIR", flag(bubbles.air)),
             ("NUCLEUS_PRESSURE", bubbles.nucleus_pressure(p.spacing)),
-            ("NUCLEUS_WAIT", NUCLEUS_WAIT),
             ("FOAM_TIME", bubbles.foam_time.unwrap_or_default()),
             ("GRAVITY", glam::DVec3::from(p.gravity).length()),
         ]);

@@ -4,6 +4,8 @@
 //!include common/glass/boundary.wgsl
 //!include common/liquid/step.wgsl
 
+/// Share of space that glass leaves around a bubble at least, as far as it counts.
+const LEAST_BESIDE_GLASS: f32 = 0.3;
 /// Share of solid space around a bubble from which on glass holds it back.
 const AT_GLASS: f32 = 0.2;
 /// Most acceleration of the liquid around a bubble that its velocity is changed by, over gravity's: more is noise. Without weight
@@ -86,5 +88,5 @@ fn cover_of(cover: f32, wall: vec4<f32>, up: vec3<f32>) -> f32 {
     if (all(up == vec3<f32>(0.0))) { return 1.0; }
     let slope = wall_gradient(wall);
     let above = max(dot(slope, up), 0.0) / max(length(slope), 1e-9);
-    return cover / max(1.0 - wall_volume(wall), 0.3) + 2.0 * wall_volume(wall) * above;
+    return cover / max(1.0 - wall_volume(wall), LEAST_BESIDE_GLASS) + 2.0 * wall_volume(wall) * above;
 }

@@ -104,7 +104,7 @@ struct Surrounding {
     larger: u32,
     /// Gas of what is around over what it can hold.
     crowded: f32,
-    /// Share of gas in what is around.
+    /// Share of gas in what is around, but for its own.
     crowd: f32,
 }
 
@@ -116,6 +116,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     let key = key_of(bubble, slot);
     let share = bubble.cavity;
     var below = 0.0;
+    var own_share = 0.0;
     let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), is_there(bubble));
     for (var n = lane; n < count; n += LANES) {
@@ -154,6 +155,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             let extent = unpack_bulk(bulk[j]).volume;
             s.crowded += weight * held.y / max(HELD * (extent - held.x), 1e-3);
             s.crowd += weight * (1.0 - liquid_share(j, distance, bubble) * (1.0 - held.x / extent));
+            own_share += weight * weight / extent;
         }
     }
     s.weight = lane_sum(s.weight);
@@ -176,7 +178,9 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.larger = lane_max(s.larger);
     s.velocity *= per_weight;
     s.crowded *= per_weight;
-    s.crowd = lane_sum(s.crowd) * per_weight;
+    // Less what particles hold of its own gas, by their weights.
+    let own_gas = (1.0 - share) * bubble_volume(bubble.radius) / VOLUME * lane_sum(own_share) * per_weight * per_weight;
+    s.crowd = max(lane_sum(s.crowd) * per_weight - own_gas, 0.0);
     s.temperature = thermal.x * per_weight;
     s.acid = thermal.y * per_weight;
     s.superheat = excess.x / max(s.contact, 1e-12);

@@ -2,7 +2,7 @@
 
 /// What bubbles of a flask let go.
 struct Venting {
-    /// In the step, in quanta.
+    /// Since the step before took it up, in quanta.
     quanta: atomic<u32>,
     /// Mean of the last `VENTED_OVER`, m³/s.
     flow: f32,
@@ -23,5 +23,6 @@ fn vent_gas(k: u32, volume: f32) {
 /// Takes up what the step before added for flask k; the next one lasts `time`.
 fn take_up_vented(k: u32, time: f32) {
     let volume = f32(atomicExchange(&venting[k].quanta, 0u)) * VENTED_QUANTUM;
-    venting[k].flow = (venting[k].flow + volume / VENTED_OVER) * exp(-time / VENTED_OVER);
+    let kept = exp(-time / VENTED_OVER);
+    venting[k].flow = venting[k].flow * kept + volume / time * (1.0 - kept);
 }
