@@ -24,3 +24,4 @@ mod scenes;
 pub mod setup;
 pub mod spray;
 mod steam;
+mod swarms;

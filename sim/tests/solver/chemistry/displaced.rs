@@ -27,8 +27,10 @@ fn lasting() -> Physical {
 }
 
 /// `count` particles of water of 20 °C at rest in a vessel of that radius (m).
-fn vessel(device: &Gpu, radius: f64, count: usize) -> Solver {
-    let profile = Profile::new(&[[0.0, radius], [0.16, radius]], 0.002).unwrap();
+pub fn vessel(device: &Gpu, radius: f64, count: usize) -> Solver {
+    let depth = count as f64 * parameters().particle_volume() / (PI * radius * radius);
+    let height = f64::max(0.16, 1.4 * depth);
+    let profile = Profile::new(&[[0.0, radius], [height, radius]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, count);
     fill(&mut particles, |_| (20.0, 0.0));
     let solver = Setup::new(of(lasting(), quick()), vec![profile], particles).solver(device);
@@ -36,17 +38,17 @@ fn vessel(device: &Gpu, radius: f64, count: usize) -> Solver {
     solver
 }
 
-fn steps(device: &Gpu, solvers: &[&Solver], count: usize) {
+pub fn steps(device: &Gpu, solvers: &[&Solver], count: usize) {
     for solver in solvers {
         frames(device, solver, &[Pose::IDENTITY], count);
     }
 }
 
-fn volume(radius: f64) -> f64 {
+pub fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * radius.powi(3)
 }
 
-fn live(state: &SolverState) -> impl Iterator<Item = &Bubble> {
+pub fn live(state: &SolverState) -> impl Iterator<Item = &Bubble> {
     state
         .bubbles()
         .iter()
@@ -58,7 +60,7 @@ fn at(row: [f32; 4]) -> DVec3 {
 }
 
 /// Air in a bubble of that radius (m) at 20 °C, as the solver counts it.
-fn air(p: &Parameters, radius: f64) -> f32 {
+pub fn air(p: &Parameters, radius: f64) -> f32 {
     (volume(radius) * 101_325.0 / (461.5 * 293.15) / p.particle_mass()) as f32
 }
 
@@ -248,10 +250,8 @@ fn a_bubble_does_not_rise_in_liquid_that_falls() {
     );
 }
 
-/// Share of the liquid that leaves a beaker 70 mm wide within 0.4 s in which water of 20 °C is stirred into acid of 150 °C, its greatest
-/// kinetic energy (J), and the widest bubble (m).
-fn eruption(law: Physical) -> [f64; 3] {
-    let device = gpu::device();
+/// A beaker 70 mm wide in which water of 20 °C is stirred into acid of 150 °C.
+pub fn stirred(device: &Gpu, law: Physical) -> Solver {
     let profile = Profile::new(&[[0.0, 0.035], [0.12, 0.035]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, 8000);
     let mut heights: Vec<f64> = particles.iter().map(|p| p.position.y).collect();
@@ -277,7 +277,13 @@ fn eruption(law: Physical) -> [f64; 3] {
         iterations: 3,
         ..parameters()
     };
-    let solver = Setup::new(of(law, parameters), vec![profile], particles).solver(&device);
+    Setup::new(of(law, parameters), vec![profile], particles).solver(device)
+}
+
+/// Share of the liquid that leaves it within 0.4 s, its greatest kinetic energy (J), and the widest bubble (m).
+fn eruption(law: Physical) -> [f64; 3] {
+    let device = gpu::device();
+    let solver = stirred(&device, law);
     let mass = solver.parameters().particle_mass();
     let (mut energy, mut widest) = (0.0f64, 0.0f64);
     let mut out = 0;
