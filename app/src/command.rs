@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+mod capped;
 mod course;
 pub mod doctor;
 #[cfg(feature = "export")]

@@ -50,6 +50,8 @@ pub struct Sitting<'a> {
     pub source: Option<&'a Path>,
     /// The folder for statements.
     pub out: Option<&'a Path>,
+    /// What they are scored by.
+    pub rubric: &'a Rubric,
 }
 
 /// What is needed to keep attempts, found before anything is simulated.
@@ -103,7 +105,10 @@ pub fn keep_under(
         return Ok(None);
     };
     let texts = Texts::english().other()?;
-    let attempts: Vec<Scored> = attempts.iter().map(|it| scored(it, &texts)).collect();
+    let attempts: Vec<Scored> = attempts
+        .iter()
+        .map(|it| scored(it, sitting.rubric, &texts))
+        .collect();
     let kept = keep(&Keeping {
         class,
         pseudonym,
@@ -132,8 +137,8 @@ pub fn keep_under(
     }))
 }
 
-fn scored(attempt: &Attempt, texts: &Texts) -> Scored {
-    let score = Score::of(attempt, &Rubric::default(), texts);
+fn scored(attempt: &Attempt, rubric: &Rubric, texts: &Texts) -> Scored {
+    let score = Score::of(attempt, rubric, texts);
     let [points, of] = [score.points, score.of].map(f64::from);
     // Where nothing could be judged there is none.
     let mut kept = vitriol_record::Score::new(points, of).ok();

@@ -22,6 +22,8 @@ struct Told {
     points: u32,
     steps: Vec<Item>,
     rules: Vec<Item>,
+    /// What caps the score of an attempt.
+    caps: Vec<String>,
 }
 
 /// A step or a rule.
@@ -58,7 +60,10 @@ pub fn run(
     let Some(name) = &args.lesson else {
         let names = Lesson::builtin_names().into_iter();
         let lessons: Vec<Lesson> = names.map(open).collect::<Result<_, _>>()?;
-        let told = lessons.iter().map(|it| of(it, args.language)).collect();
+        let told = lessons
+            .iter()
+            .map(|it| of(it, args.language, &texts))
+            .collect();
         return emit(format, &All { lessons: told }, |all| {
             let lines = all.lessons.iter().zip(&lessons);
             let lines =
@@ -75,7 +80,7 @@ pub fn run(
     if let Some(film) = &args.film {
         return film::make((args, film), &lesson, format, prepare);
     }
-    emit(format, &of(&lesson, args.language), |told| {
+    emit(format, &of(&lesson, args.language, &texts), |told| {
         let mut text = format!(
             "{}\n{}\n{}\nscene {}, {} points\n",
             modes(told, &lesson),
@@ -94,11 +99,14 @@ pub fn run(
         for rule in &told.rules {
             text += &format!("  ·  {} ({})\n", rule.text, rule.points);
         }
+        for cap in &told.caps {
+            text += &format!("  !  {cap}\n");
+        }
         text
     })
 }
 
-fn of(lesson: &Lesson, language: Language) -> Told {
+fn of(lesson: &Lesson, language: Language, words: &Texts) -> Told {
     let texts = lesson.texts(language);
     let steps = lesson.steps.iter().map(|step| {
         let said = texts.step.get(&step.id);
@@ -126,5 +134,6 @@ fn of(lesson: &Lesson, language: Language) -> Told {
         points: steps.iter().chain(&rules).map(|item| item.points).sum(),
         steps,
         rules,
+        caps: lesson.rubric().caps.sentences(words),
     }
 }

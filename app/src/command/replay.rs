@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_lesson::procedure::{Progress, Verdict};
-use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
+use vitriol_lesson::{Event, Score, Texts, incidents_csv};
 use vitriol_run::output::{
     FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, REPORT_HTML, REPORT_JSON,
 };
@@ -26,6 +26,7 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::cli::ReplayArgs;
+use crate::command::capped;
 use crate::command::course::{self, AskedLesson};
 #[cfg(feature = "class")]
 use crate::command::keeping::Kept;
@@ -218,6 +219,9 @@ fn replay(
         None => (name_of_start.clone(), scene),
     };
     let scene = scene.with_effort(outcome.effort);
+    let judged = lesson.as_ref();
+    let rubric = judged.map(|(lesson, _)| lesson.rubric());
+    let rubric = rubric.unwrap_or_default();
     let retold = lesson.map(|(lesson, mode)| Verdict::retold(&lesson, mode, &outcome.progress));
     let recording = recorded.map(|recorded| recorded.against((&name_of_start, &scenes), &outcome));
     let mut report = assemble(
@@ -232,7 +236,7 @@ fn replay(
     report.recording = recording;
     report.lesson = retold.unwrap_or_default();
     let texts = Texts::english().other()?;
-    report.judge(&Rubric::default(), &texts);
+    report.judge(&rubric, &texts);
     // The page first and the numbers last: a folder with `report.json` is a whole run.
     out.write(REPORT_HTML, report.to_html(&texts).as_bytes())?;
     let incidents = (!report.attempts.is_empty()).then_some(INCIDENTS_CSV);
@@ -247,7 +251,7 @@ fn replay(
     let place = |name: &str| folder.join(name).display().to_string();
     Ok(Replayed {
         #[cfg(feature = "class")]
-        kept: record.keep(&folder, &report.attempts)?,
+        kept: record.keep(&folder, &rubric, &report.attempts)?,
         boiling: boiling(&report, &texts),
         report: report.without_series(),
         report_json: place(REPORT_JSON),
@@ -382,6 +386,12 @@ fn describe(done: &Replayed) -> String {
         lines.push(format!(
             "attempt {number}, {scene}: {points} of {of} points"
         ));
+        lines.extend(
+            score
+                .caps
+                .iter()
+                .map(|cap| format!("  {}", capped::said(cap))),
+        );
     }
     for (verdict, number) in report.lesson.iter().zip(1..) {
         let Verdict { points, of, .. } = verdict;

@@ -91,6 +91,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         let mode = options.course.as_ref().map(|it| it.mode);
         eprintln!("{}", menu::lines(invites, mode));
     }
+    let course = options.course.as_ref();
+    let rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;
         let session = begin(headset, options, !args.no_mirror, &serving)?;
@@ -122,6 +124,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         session: sitting(args, begun),
         source: args.record.as_deref(),
         out: None,
+        rubric: &rubric,
     };
     let kept = keeping::keep_under(&args.keep, &keeper, &sitting, &report.attempts);
     // What could not be kept is at least reported.

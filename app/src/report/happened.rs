@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
-use vitriol_lesson::{Attempt, Score, ScoreLine, Sentence, Texts, Tone, sentences};
+use vitriol_lesson::{Attempt, Cap, Evidence, Score, ScoreLine, Sentence, Texts, Tone, sentences};
 
 use super::model::Report;
 
@@ -150,6 +150,7 @@ fn points(score: &Score, texts: &Texts, film: bool) -> Markup {
         table.score {
             thead { tr { th { "For" } th { "Points" } th { "Evidence" } } }
             tbody {
+                @for cap in &score.caps { (cap_row(cap, film)) }
                 @for line in &score.lines { (row(line, texts, film)) }
                 @for left_out in &score.left_out {
                     tr {
@@ -160,7 +161,13 @@ fn points(score: &Score, texts: &Texts, film: bool) -> Markup {
                 }
             }
             tfoot {
-                tr { th scope="row" { "All that was judged" } td { (score.points) " of " (score.of) } td {} }
+                tr {
+                    th scope="row" { "All that was judged" }
+                    td { (score.points) " of " (score.of) }
+                    td {
+                        @if score.uncapped() > score.points { "Without the cap it would be " (score.uncapped()) "." }
+                    }
+                }
             }
         }
         p.note { "Between full points and none they fall in a straight line, rounded down." }
@@ -172,12 +179,27 @@ fn row(line: &ScoreLine, texts: &Texts, film: bool) -> Markup {
         tr {
             th scope="row" { (line.criterion.name(texts)) p.note { (line.rule) } }
             td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
-            td {
-                ul.said {
-                    @for evidence in &line.evidence {
-                        li { (moment(evidence.t_s, film)) p { (evidence.text) } }
-                    }
-                }
+            td { (proof(&line.evidence, film)) }
+        }
+    }
+}
+
+/// A cap, with what it is for.
+fn cap_row(cap: &Cap, film: bool) -> Markup {
+    html! {
+        tr {
+            th scope="row" { (cap.text) }
+            td { "at most " (cap.most) }
+            td { (proof(&cap.evidence, film)) }
+        }
+    }
+}
+
+fn proof(evidence: &[Evidence], film: bool) -> Markup {
+    html! {
+        ul.said {
+            @for evidence in evidence {
+                li { (moment(evidence.t_s, film)) p { (evidence.text) } }
             }
         }
     }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command as Process, Stdio};
 
 use vitriol::command::grade::{Status, Verdict};
-use vitriol_lesson::Attempt;
+use vitriol_lesson::{Attempt, Event};
 use vitriol_record::{Keeping, Scored, Session, Timestamp, keep};
 use vitriol_run::{Failure, Setup};
 use vitriol_tests::program::Program;
@@ -328,6 +328,37 @@ fn what_breaks_off_is_graded_when_accepted() {
     let (class, failure) = graded(folder.path(), &to[..2], nobody).unwrap();
     assert_eq!(class.failed, 1);
     assert!(failure.unwrap().to_string().contains("--accept-truncated"));
+}
+
+/// What endangers caps the points. The table says so, with the reason and its moment.
+#[test]
+fn a_danger_caps_the_points_and_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let mut bare = events(0.0);
+    for event in &mut bare {
+        if let Event::Poured(pour) = event {
+            pour.bare_face = true;
+        }
+    }
+    put(here, "ada.mcap", &recording(&bare));
+    put(here, "bob.mcap", &recording(&events(0.0)));
+    let out = here.join("out");
+    let class = read(here, &["--out", out.to_str().unwrap()]);
+    // 60 of 100 are 51 of the 85 that can be had without heat.
+    let ada = line(&class, "ada");
+    assert_eq!((ada.points, ada.of), (Some(51), Some(85)));
+    let why =
+        "At most 51 of 85 points: acid was handled without goggles. At 0.1 s: Acid was poured";
+    assert!(ada.caps[0].starts_with(why), "{:?}", ada.caps);
+    let bob = line(&class, "bob");
+    assert_eq!((bob.points, bob.caps.len()), (Some(85), 0));
+    let table = fs::read_to_string(out.join("grades.csv")).unwrap();
+    assert!(table.contains(",points,of,caps,finished,"), "{table}");
+    assert!(table.contains(why), "{table}");
+    let told = VITRIOL.run(here, &["grade", ".", "--scene", SCENE]);
+    let told = String::from_utf8(told.stdout).unwrap();
+    assert!(told.contains("51 of 85  At most 51 of 85"), "{told}");
 }
 
 /// The class's file tells whose a recording is; a file's name that is a formula is text in a spreadsheet.

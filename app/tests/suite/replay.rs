@@ -447,7 +447,8 @@ fn the_report_reads_in_a_browser() {
         "Limiter: max neighbours",
         "00000000feedf00d",
         &report.command,
-        "19 of 100 points",
+        "11 of 100 points",
+        "At most 40 of 100 points: water was poured into acid.",
         "99 of 100 points",
         &format!("“{FLASK}” boiled over and threw out: 3.4\u{a0}mL of 71\u{a0}% acid."),
     ] {

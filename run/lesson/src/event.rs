@@ -53,6 +53,9 @@ pub struct Pour {
     pub acid: f64,
     /// Contents of the target flask before it; `None` where the flask was empty, or where the liquid came to no flask.
     pub met: Option<Content>,
+    /// Whether the user wore no goggles while it arrived, in a scene that has some.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub bare_face: bool,
 }
 
 impl Pour {

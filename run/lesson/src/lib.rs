@@ -6,6 +6,7 @@
 
 mod attempt;
 mod boiling;
+mod caps;
 mod event;
 mod finder;
 mod language;
@@ -22,6 +23,7 @@ mod words;
 
 pub use attempt::Attempt;
 pub use boiling::{Boiling, BoilingFigure};
+pub use caps::{Caps, Danger};
 pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
@@ -31,7 +33,7 @@ pub use limits::Limits;
 pub use mixing::layered;
 pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
-pub use score::{Criterion, Evidence, LeftOut, Score, ScoreLine};
+pub use score::{Cap, Criterion, Evidence, LeftOut, Score, ScoreLine};
 pub use table::{TableError, incidents_csv, spreadsheet_text};
 pub use texts::{Texts, TextsError};
 pub use words::{Sentence, Tone, sentences};

@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Acid mass fraction from which on acid is concentrated: where UN 1830 (more than 51 % acid) begins and UN 2796 ends.
+pub(crate) const CONCENTRATED: f64 = 0.51;
+
 /// Limits of rate, concentration, temperature, volume and speed from which on an observation is a pour or an incident.
 #[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -11,7 +14,7 @@ pub struct Limits {
     /// ten times its mass of water gives off some 0.7 MJ a kilogram (Thomsen's formula, docs/chemistry.md), so 5 mL/s are 6 kW, which
     /// warm 250 mL of water by 6 K each second.
     pub rate_m3_s: f64,
-    /// Acid mass fraction from which on acid is concentrated: where UN 1830 (more than 51 % acid) begins and UN 2796 ends.
+    /// Acid mass fraction from which on acid is concentrated.
     pub concentrated: f64,
     /// Mean temperature of a flask's liquid from which on it is an incident, °C: it burns through skin in six seconds (US Consumer Product
     /// Safety Commission, document 5098). Colder liquid is an incident only where it touches skin
@@ -35,7 +38,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             rate_m3_s: 5e-6,
-            concentrated: 0.51,
+            concentrated: CONCENTRATED,
             hot_c: 60.0,
             least_pour_m3: 0.5e-6,
             least_spill_m3: 0.1e-6,

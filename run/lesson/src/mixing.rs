@@ -65,6 +65,15 @@ impl Attempt {
         self.pours.iter().map(|pour| pour.volume_m3).sum()
     }
 
+    /// Volume of water that came to concentrated acid, m³.
+    pub(crate) fn water_into_acid_m3(&self) -> f64 {
+        let volumes = self.incidents.iter().map(|incident| match incident.what {
+            What::WaterIntoAcid { volume_m3, .. } => volume_m3,
+            _ => 0.0,
+        });
+        volumes.sum()
+    }
+
     /// Highest known mean temperature of the mixed liquid, as (time s, °C): before each later pour into it, in its heat incidents, and at
     /// the end.
     pub(crate) fn warmest(&self) -> Option<(f64, f64)> {

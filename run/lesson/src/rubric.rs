@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::caps::{Caps, WHOLE};
 use crate::skin::IRRITANT;
 
 /// Points of a criterion: all up to a limit, none from another, and in between in a straight line, rounded down. The limits are in the
@@ -53,18 +54,20 @@ pub struct Rubric {
     pub nothing_thrown_out: Ramp,
     /// Nothing spilt: volume, m³.
     pub nothing_spilt: Ramp,
-    /// Nothing on hands and face: volume, m³.
+    /// Nothing on hands and face: number of drops of 0.05 mL, of which each begun one counts.
     pub nothing_on_skin: Ramp,
     /// Glass handled well: number of flasks.
     pub glass_whole: Ramp,
     /// Weight of a volume whose acid does not even irritate, 0 to 1.
     pub harmless_share: f64,
-    /// Weight of a volume on glove or goggles against one on skin, 0 to 1.
+    /// Weight of a drop on glove or goggles against one on skin, 0 to 1.
     pub protected_share: f64,
     /// Weight of a flask that is dropped and stays whole against one that breaks, 0 to 1.
     pub whole_share: f64,
     /// Least volume that must be poured for the pouring to be judged, m³.
     pub least_m3: f64,
+    /// Most points in all where something dangerous was done.
+    pub caps: Caps,
 }
 
 impl Default for Rubric {
@@ -80,13 +83,14 @@ impl Default for Rubric {
             nothing_thrown_out: Ramp::new(15, 0.0, 1e-6),
             // 5 mL: a tea spoon.
             nothing_spilt: Ramp::new(10, 0.0, 5e-6),
-            // 0.5 mL: ten drops.
-            nothing_on_skin: Ramp::new(15, 0.0, 0.5e-6),
+            // One drop of strong acid burns.
+            nothing_on_skin: Ramp::new(15, 0.0, 1.0),
             glass_whole: Ramp::new(5, 0.0, 1.0),
             harmless_share: 0.25,
             protected_share: 0.25,
             whole_share: 0.5,
             least_m3: 5e-6,
+            caps: Caps::default(),
         }
     }
 }
@@ -103,6 +107,9 @@ pub enum RubricError {
     /// The least volume is negative or not finite.
     #[error("least_m3: must be a volume, 0 or more")]
     Least,
+    /// A cap is higher than the points that can be had.
+    #[error("caps.{0}: must be at most 100, which caps nothing")]
+    Cap(&'static str),
 }
 
 impl Rubric {
@@ -135,6 +142,10 @@ impl Rubric {
         let none = |share: f64| !(0.0..=1.0).contains(&share);
         if let Some((name, _)) = shares.iter().find(|(_, share)| none(*share)) {
             return Err(RubricError::Share(name));
+        }
+        let caps = self.caps.named();
+        if let Some((name, _)) = caps.iter().find(|(_, most)| *most > WHOLE) {
+            return Err(RubricError::Cap(name));
         }
         if self.least_m3 >= 0.0 && self.least_m3.is_finite() {
             Ok(())
@@ -190,6 +201,7 @@ mod tests {
         assert!(with(&|it| it.nothing_spilt.none_from = 0.0).contains("nothing_spilt"));
         assert!(with(&|it| it.stayed_cool.full_to = f64::NAN).contains("stayed_cool"));
         assert!(with(&|it| it.whole_share = -0.1).contains("whole_share"));
+        assert!(with(&|it| it.caps.no_goggles = 101).contains("caps.no_goggles"));
         assert!(with(&|it| it.least_m3 = f64::NAN).contains("least_m3"));
     }
 }

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::caps::Danger;
 use crate::rubric::{Ramp, Rubric};
+use crate::skin::drops;
 use crate::texts::Texts;
 use crate::{Attempt, Incident, Pour, What};
 
@@ -73,6 +75,7 @@ impl Criterion {
         match self {
             Self::PouredSlowly => texts.rate(value),
             Self::StayedCool => texts.temperature(value),
+            Self::NothingOnSkin => texts.count(value),
             _ => texts.volume(value),
         }
     }
@@ -128,10 +131,30 @@ pub struct LeftOut {
     pub why: String,
 }
 
+/// A cap of a score, for a danger that happened.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
+pub struct Cap {
+    /// The danger.
+    pub danger: Danger,
+    /// Most points, of the score's.
+    pub most: u32,
+    /// Cap and danger, in a sentence.
+    pub text: String,
+    /// Evidence for the danger; never empty.
+    pub evidence: Vec<Evidence>,
+}
+
+impl Cap {
+    /// When the danger first happened, simulated time of the run, s.
+    pub fn t_s(&self) -> Option<f64> {
+        self.evidence.first()?.t_s
+    }
+}
+
 /// The points of an attempt.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Score {
-    /// Points given.
+    /// Points given: what the lines add up to, or the lowest cap where that is less.
     pub points: u32,
     /// Points that can be given by the criteria that are judged; 0 of an attempt in which nothing was done.
     pub of: u32,
@@ -139,6 +162,9 @@ pub struct Score {
     pub lines: Vec<ScoreLine>,
     /// Criteria that cannot be judged, and count neither way.
     pub left_out: Vec<LeftOut>,
+    /// Caps for what endangered the user, the lowest first; also those that are higher than the points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub caps: Vec<Cap>,
 }
 
 /// Finding for a criterion.
@@ -159,6 +185,7 @@ impl Score {
             of: 0,
             lines: Vec::new(),
             left_out: Vec::new(),
+            caps: Vec::new(),
         };
         let judge = Judge {
             attempt,
@@ -175,7 +202,6 @@ impl Score {
                     continue;
                 }
             };
-            score.points = score.points.saturating_add(points);
             score.of = score.of.saturating_add(ramp.points);
             score.lines.push(ScoreLine {
                 criterion,
@@ -185,7 +211,16 @@ impl Score {
                 evidence,
             });
         }
+        score.caps = judge.caps(score.of);
+        let most = score.caps.first().map_or(score.of, |cap| cap.most);
+        score.points = score.uncapped().min(most);
         score
+    }
+
+    /// Points that the lines add up to, without a cap.
+    pub fn uncapped(&self) -> u32 {
+        let points = self.lines.iter().map(|line| line.points);
+        points.fold(0, u32::saturating_add)
     }
 }
 
@@ -220,8 +255,8 @@ impl Judge<'_> {
                     volume_m3,
                     protected,
                     ..
-                } if *protected => Some(volume_m3 * self.rubric.protected_share),
-                What::OnSkin { volume_m3, .. } => Some(*volume_m3),
+                } if *protected => Some(drops(*volume_m3) * self.rubric.protected_share),
+                What::OnSkin { volume_m3, .. } => Some(drops(*volume_m3)),
                 _ => None,
             }),
             Criterion::GlassWhole => self.mishaps(&well.glass.text(), |what| match what {
@@ -257,13 +292,7 @@ impl Judge<'_> {
         if let Some(left_out) = self.no_dilution() {
             return left_out;
         }
-        let (mut wrong_m3, mut evidence) = (0.0, Vec::new());
-        for incident in &self.attempt.incidents {
-            if let What::WaterIntoAcid { volume_m3, .. } = incident.what {
-                wrong_m3 += volume_m3;
-                evidence.push(self.incident(incident));
-            }
-        }
+        let mut evidence = self.water_into_acid();
         let right = || {
             self.attempt
                 .pours
@@ -278,7 +307,7 @@ impl Judge<'_> {
             return Found::None(evidence);
         }
         evidence.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
-        Found::Value(wrong_m3, evidence)
+        Found::Value(self.attempt.water_into_acid_m3(), evidence)
     }
 
     fn poured_slowly(&self) -> Found {
@@ -344,6 +373,18 @@ impl Judge<'_> {
         (mixed < self.rubric.least_m3).then(|| Found::None(vec![whole(text())]))
     }
 
+    /// The incidents in which water came to acid.
+    fn water_into_acid(&self) -> Vec<Evidence> {
+        self.incidents(|what| matches!(what, What::WaterIntoAcid { .. }))
+    }
+
+    /// The incidents of that kind.
+    fn incidents(&self, is: impl Fn(&What) -> bool) -> Vec<Evidence> {
+        let incidents = self.attempt.incidents.iter();
+        let found = incidents.filter(|it| is(&it.what));
+        found.map(|it| self.incident(it)).collect()
+    }
+
     fn incident(&self, incident: &Incident) -> Evidence {
         Evidence {
             t_s: Some(incident.t_s),
@@ -355,6 +396,41 @@ impl Judge<'_> {
         Evidence {
             t_s: Some(pour.t_s),
             text: self.texts.pour(pour),
+        }
+    }
+}
+
+impl Judge<'_> {
+    /// The caps of a score of `of` points, the lowest first.
+    fn caps(&self, of: u32) -> Vec<Cap> {
+        let cap = |danger| {
+            let most = self.rubric.caps.most_of(danger, of)?;
+            let evidence = self.endangered(danger);
+            (of > 0 && !evidence.is_empty()).then(|| Cap {
+                danger,
+                most,
+                text: self.texts.cap(danger, most, of),
+                evidence,
+            })
+        };
+        let mut caps: Vec<Cap> = Danger::ALL.into_iter().filter_map(cap).collect();
+        caps.sort_by_key(|cap| cap.most);
+        caps
+    }
+
+    /// Evidence that this danger happened, in the order of time; empty where it did not.
+    fn endangered(&self, danger: Danger) -> Vec<Evidence> {
+        match danger {
+            Danger::WrongOrder if self.attempt.water_into_acid_m3() < self.rubric.least_m3 => {
+                Vec::new()
+            }
+            Danger::WrongOrder => self.water_into_acid(),
+            Danger::AcidOnSkin => self.incidents(What::is_acid_on_skin),
+            Danger::NoGoggles => {
+                let pours = self.attempt.pours.iter();
+                let bare = pours.filter(|it| it.lacks_goggles());
+                bare.map(|pour| self.pour(pour)).collect()
+            }
         }
     }
 }

@@ -29,6 +29,15 @@ pub const CORROSIVE: f64 = 0.15;
 /// Mass fraction from which it is Skin Irrit. 2 and Eye Irrit. 2: H315, H319.
 pub const IRRITANT: f64 = 0.05;
 
+/// A drop, m³: 20 drops of water from a normal dropper weigh 1 g (European Pharmacopoeia, 2.1.1).
+const DROP_M3: f64 = 0.05e-6;
+
+/// How many drops a volume (m³) is: each begun one counts, at least one.
+pub(crate) fn drops(volume_m3: f64) -> f64 {
+    // What rounding leaves over whole drops is none.
+    (volume_m3 / DROP_M3 - 1e-9).ceil().max(1.0)
+}
+
 /// Effect of hot liquid on bare skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Heat {
@@ -114,6 +123,12 @@ mod tests {
             assert_eq!(heat(hot), Heat::AtOnce);
         }
         assert!(matches!(heat(60.0), Heat::Within { .. }));
+    }
+
+    #[test]
+    fn each_begun_drop_counts() {
+        let counted = [0.0, 1e-12, 0.05e-6, 0.051e-6, 0.1e-6, 0.15e-6, 1e-6].map(drops);
+        assert_eq!(counted, [1.0, 1.0, 1.0, 2.0, 2.0, 3.0, 20.0]);
     }
 
     #[test]

@@ -107,6 +107,7 @@ section!(Well: slowly cool kept clean skin glass);
 section!(BoilingTexts: steam steam_note gas gas_note thrown thrown_note drop drop_note nuclei nuclei_note);
 section!(CriterionNames: right_order poured_slowly stayed_cool nothing_thrown_out nothing_spilt nothing_on_skin glass_whole);
 section!(Rule: right_order up_to nothing skin glass);
+section!(CapTexts: most wrong_order acid_on_skin no_goggles);
 section!(Evidence: too_little too_little_acid mean);
 section!(LeftOut: nothing_poured no_acid no_heat);
 section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
@@ -131,6 +132,7 @@ pub struct Texts {
     pub(crate) boiling: BoilingTexts,
     pub(crate) criterion: CriterionNames,
     pub(crate) rule: Rule,
+    pub(crate) cap: CapTexts,
     pub(crate) evidence: Evidence,
     pub(crate) left_out: LeftOut,
     pub(crate) why: WhyTexts,

@@ -64,6 +64,11 @@ impl Texts {
         self.said(&self.unit.centimetres_a_second, 100.0 * m_s)
     }
 
+    /// A number without a unit, as it is.
+    pub(crate) fn count(&self, number: f64) -> String {
+        self.with_decimal(&number.to_string())
+    }
+
     /// kg as mg or g.
     pub(crate) fn mass(&self, kg: f64) -> String {
         if kg < 1e-3 {
@@ -87,8 +92,12 @@ impl Texts {
     }
 
     fn said(&self, unit: &Template, value: f64) -> String {
-        let number = two_digits(value).replace('.', &self.number.decimal.text());
+        let number = self.with_decimal(&two_digits(value));
         unit.fill(&[("number", &number)])
+    }
+
+    fn with_decimal(&self, number: &str) -> String {
+        number.replace('.', &self.number.decimal.text())
     }
 }
 

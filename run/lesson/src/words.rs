@@ -32,8 +32,8 @@ pub struct Sentence {
     pub more: Option<String>,
 }
 
-/// An attempt in sentences: those of a moment in the order of time, then those of the whole. `score` is the attempt's own: a criterion
-/// with all points gives a sentence that it went well.
+/// An attempt in sentences: the caps of its score, then those of a moment in the order of time, then those of the whole. `score` is
+/// the attempt's own: a criterion with all points gives a sentence that it went well.
 pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentence> {
     let mut said = Vec::new();
     let mut say = |t_s, tone, text, more| {
@@ -77,7 +77,13 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
     let moment = |sentence: &Sentence| sentence.t_s.unwrap_or(f64::INFINITY);
     // Stable: sentences of one moment stay in the order of above.
     said.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
-    said
+    let caps = score.caps.iter().map(|cap| Sentence {
+        t_s: cap.t_s(),
+        tone: Tone::Bad,
+        text: cap.text.clone(),
+        more: None,
+    });
+    caps.chain(said).collect()
 }
 
 impl Attempt {

@@ -245,6 +245,8 @@ impl Session {
             run.act(Action::Glass(true))?;
         }
         pacing.begin(true, None, &benches.current, &mut run)?;
+        let course = options.course.as_ref();
+        let rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();
         let sounds = Sounds::new(options.sound, options.plan.seed);
         let made_for = (gpu, &*benches.library, benches.eyes.extent);
         let instructor = Instructor::new(options.console, made_for)?;
@@ -261,7 +263,7 @@ impl Session {
             readings: Readings::default(),
             sounds,
             hints,
-            summary: Summary::new(options.language)?,
+            summary: Summary::new(options.language, rubric)?,
             checkpoints: Checkpoints::default(),
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],

@@ -199,6 +199,7 @@ mod tests {
             fastest_m3_s: 0.0,
             acid: 0.98,
             met: None,
+            bare_face: false,
         }
     }
 

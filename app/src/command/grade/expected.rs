@@ -57,11 +57,12 @@ impl Expected {
             course::judging((lesson, *mode), (&name, Some(text)))?;
         }
         let of_lesson = lesson.as_ref();
+        let rubric = of_lesson.map(|(lesson, _)| lesson.rubric());
         Ok(Self {
             asked: Asked {
                 scene_id: Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).to_string(),
                 preset: preset.map(|it| it.name().to_owned()),
-                rubric: Rubric::default(),
+                rubric: rubric.unwrap_or_default(),
                 lesson: of_lesson.map(|(lesson, mode)| AskedLesson::of(lesson, *mode)),
                 scene: name,
             },

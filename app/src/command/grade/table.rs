@@ -10,6 +10,7 @@ use vitriol_run::{Blame, Failure, in_a_line};
 use super::graded::{Found, Graded};
 use super::lesson::{Columns, OfLesson};
 use super::verify::Verdict;
+use crate::command::capped;
 
 /// What `vitriol grade` prints.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -49,6 +50,9 @@ pub struct Line {
     pub points: Option<u32>,
     /// Points that could be had.
     pub of: Option<u32>,
+    /// What caps the points, with its evidence; the lowest cap first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub caps: Vec<String>,
     /// Whether it came to its end.
     pub finished: Option<bool>,
     /// Points by criterion, and of how many; of those that could be judged.
@@ -133,6 +137,7 @@ impl Class {
                 attempt: Some(number),
                 points: Some(score.points),
                 of: Some(score.of),
+                caps: score.caps.iter().map(capped::said).collect(),
                 finished: Some(attempt.ending.is_some()),
                 criteria: lines.map(|it| (it.criterion, [it.points, it.of])).collect(),
                 incidents,
@@ -180,17 +185,12 @@ pub fn text(class: &Class) -> String {
             (Some(points), Some(of)) => format!("{points} of {of}"),
             _ => line.status.name().into(),
         };
-        let mut notes: Vec<String> = line
-            .incidents
-            .iter()
-            .map(|(kind, count)| match count {
-                1 => (*kind).to_owned(),
-                _ => format!("{kind} ×{count}"),
-            })
-            .collect();
-        if let Some(lesson) = &line.lesson {
-            notes.insert(0, lesson.text());
-        }
+        let mut notes = line.caps.clone();
+        notes.extend(line.lesson.as_ref().map(OfLesson::text));
+        notes.extend(line.incidents.iter().map(|(kind, count)| match count {
+            1 => (*kind).to_owned(),
+            _ => format!("{kind} ×{count}"),
+        }));
         if line.finished == Some(false) {
             notes.push("broken off".into());
         }
@@ -251,7 +251,7 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
         .from_writer(&mut bytes);
     let criteria = Criterion::ALL.map(|it| format!("{} [points]", kebab(it)));
     let head = [
-        "student", "track", "status", "attempt", "points", "of", "finished",
+        "student", "track", "status", "attempt", "points", "of", "caps", "finished",
     ];
     let tail = ["verified", "note"];
     let head = head.into_iter().chain(criteria.iter().map(String::as_str));
@@ -269,6 +269,7 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
             number(line.attempt),
             number(line.points),
             number(line.of),
+            spreadsheet_text(&line.caps.join(" ")),
             line.finished
                 .map_or("", |it| if it { "yes" } else { "no" })
                 .to_owned(),

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use vitriol_lesson::Attempt;
+use vitriol_lesson::{Attempt, Rubric};
 use vitriol_record::{Session, Timestamp};
 use vitriol_run::{Blame, Experiment, Failure, Format};
 use vitriol_xr::track::Track;
@@ -87,15 +87,21 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// Keeps the attempts, with statements in the folder `out`; `None` without a pseudonym.
+    /// Keeps the attempts, scored by `rubric`, with statements in the folder `out`; `None` without a pseudonym.
     ///
     /// # Errors
     /// As [`keeping::keep_under`].
-    pub fn keep(&self, out: &Path, attempts: &[Attempt]) -> Result<Option<Kept>, Failure> {
+    pub fn keep(
+        &self,
+        out: &Path,
+        rubric: &Rubric,
+        attempts: &[Attempt],
+    ) -> Result<Option<Kept>, Failure> {
         let sitting = Sitting {
             session: self.session,
             source: Some(self.source),
             out: Some(out),
+            rubric,
         };
         keeping::keep_under(&self.args.keep, &self.keeper, &sitting, attempts)
     }

@@ -33,6 +33,11 @@ fn lessons_are_listed_shown_and_checked() {
         })
         .into();
     assert_eq!(titles.len(), 4, "{titles:?}");
+    // The lesson of the wrong order asks for it, so the score has no cap for it.
+    for (lesson, caps) in [("dilute", 3), ("wrong-order", 2)] {
+        let told = object(here, &["lesson", lesson]);
+        assert_eq!(told["caps"].as_array().unwrap().len(), caps, "{told}");
+    }
 
     let own = vitriol(here, &["lesson", "dilute", "--toml"]);
     let own = text(&own.stdout);

@@ -47,6 +47,7 @@ pub(super) fn events(spilt_ml: f64) -> Vec<Event> {
             acid: 0.0,
             temperature_c: None,
         }),
+        bare_face: false,
     };
     let begun = Event::Begun {
         t_s: 0.0,

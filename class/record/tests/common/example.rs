@@ -96,6 +96,7 @@ pub fn attempt() -> Attempt {
             fastest_m3_s: 4e-5,
             acid: 0.0,
             met: Some(acid),
+            bare_face: false,
         }],
         incidents: incidents(),
         ending: Some(Ending {

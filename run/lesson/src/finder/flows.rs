@@ -21,6 +21,7 @@ const WARMS: f64 = 10.0;
 struct Flow {
     amount: Amount,
     met: Option<Content>,
+    bare_face: bool,
     window: VecDeque<(f64, f64)>,
     fastest: f64,
     /// Portions below `concentrated` that met acid above it, and the acid fraction that the first of them met.
@@ -96,11 +97,13 @@ impl Flows {
             // The liquid arrived during the step before this observation, so the flow began with that step.
             amount: Amount::at(t - seen.elapsed),
             met: before,
+            bare_face: false,
             window: VecDeque::new(),
             fastest: 0.0,
             wrong: None,
             too_fast: None,
         });
+        flow.bare_face |= seen.worn.goggles == Some(false);
         for moved in moved.iter().filter(|it| it.particles > 0) {
             let bit = Bit {
                 volume: bench.volume(moved.volume),
@@ -190,6 +193,7 @@ impl Flow {
             fastest_m3_s: self.fastest,
             acid: amount.acid(),
             met: self.met,
+            bare_face: self.bare_face,
         }));
         let Some(into) = into else {
             return;

@@ -194,6 +194,37 @@ fn a_pour_has_its_amount_its_rate_and_its_order() {
     }
 }
 
+/// Goggles that are put on while it pours come too late; a scene without goggles has nobody bare.
+#[test]
+fn a_pour_says_whether_the_face_was_bare() {
+    for (first, then, bare) in [
+        (None, None, false),
+        (Some(true), Some(true), false),
+        (Some(false), Some(false), true),
+        (Some(false), Some(true), true),
+        (Some(true), Some(false), true),
+    ] {
+        let mut arranged = Arranged::new([0.98, 0.0]);
+        arranged.tilt(0, 80.0);
+        for goggles in [first, then] {
+            arranged.worn.goggles = goggles;
+            arranged.pours(50, BIT, 0.98, Place::Flask(1));
+        }
+        let (pours, _) = arranged.end();
+        assert_eq!(pours.len(), 1);
+        assert_eq!(pours[0].bare_face, bare, "{first:?}, {then:?}");
+    }
+    // Goggles that are off before and after do not matter.
+    let mut arranged = Arranged::new([0.98, 0.0]);
+    arranged.worn.goggles = Some(false);
+    arranged.looks(50, &|census| census);
+    arranged.tilt(0, 80.0);
+    arranged.worn.goggles = Some(true);
+    arranged.pours(50, BIT, 0.98, Place::Flask(1));
+    arranged.worn.goggles = Some(false);
+    assert!(!arranged.end().0[0].bare_face);
+}
+
 /// Acid that has been diluted below the limit is not concentrated any more: what arrives then is not in the incorrect order. Water onto
 /// water is no incident, however fast, nor is acid onto acid.
 #[test]

@@ -12,7 +12,9 @@ use super::error::{LessonError, Problem, listed, within};
 use super::mode::Mode;
 use super::sight::SceneFacts;
 use super::words::LessonTexts;
+use crate::caps::{Caps, Danger, WHOLE};
 use crate::language::Language;
+use crate::rubric::Rubric;
 use crate::texts::Texts;
 
 /// Version of the file format that is read here.
@@ -50,6 +52,8 @@ struct LessonFile {
     scene: String,
     modes: Vec<Mode>,
     #[serde(default)]
+    caps: Caps,
+    #[serde(default)]
     step: Vec<Step>,
     #[serde(default)]
     rule: Vec<Rule>,
@@ -71,6 +75,9 @@ pub struct Step {
     /// Ids of earlier steps that must be done or missed before it begins, where several steps are open at a time.
     #[serde(default)]
     pub after: Vec<String>,
+    /// Dangers that the student is asked for here: the lesson does not cap the score for them.
+    #[serde(default)]
+    pub asks: Vec<Danger>,
     /// Points for it.
     pub points: u32,
     /// Simulated time from its beginning or its last failure until its hint is shown, s; `None`: only on request.
@@ -104,6 +111,7 @@ pub struct Lesson {
     pub steps: Vec<Step>,
     /// Its rules, which hold throughout.
     pub rules: Vec<Rule>,
+    caps: Caps,
     file: String,
     hash: String,
     english: LessonTexts,
@@ -201,6 +209,7 @@ impl Lesson {
             modes: raw.modes,
             steps: raw.step,
             rules: raw.rule,
+            caps: raw.caps,
             file: file.to_owned(),
             hash: format!("{:032x}", xxh3_128(text.as_bytes())),
             english,
@@ -232,6 +241,15 @@ impl Lesson {
     /// Hash of its file's text, XXH3 of 128 bits in hexadecimal: lessons of one name and hash are the same.
     pub fn hash(&self) -> &str {
         &self.hash
+    }
+
+    /// What an attempt at it is scored by: with the caps of its file, without those for what one of its steps asks for.
+    pub fn rubric(&self) -> Rubric {
+        let asked = self.steps.iter().flat_map(|step| &step.asks);
+        Rubric {
+            caps: asked.fold(self.caps, |caps, danger| caps.without(*danger)),
+            ..Rubric::default()
+        }
     }
 
     /// Its texts in that language, or in English if it has none.
@@ -268,6 +286,10 @@ fn check(raw: &LessonFile) -> Result<(), Problem> {
     if modes.is_empty() || modes.len() < raw.modes.len() {
         let problem = "has none, or one twice; take of \"guided\", \"free\", \"examination\" each that it allows, its usual one first";
         return Err(Problem::new("modes", problem));
+    }
+    for (name, most) in raw.caps.named() {
+        let field = format!("caps.{name}");
+        within(&field, f64::from(most), 0.0, f64::from(WHOLE))?;
     }
     for (field, count, least) in [("step", raw.step.len(), 1), ("rule", raw.rule.len(), 0)] {
         if !(least..=MOST).contains(&count) {

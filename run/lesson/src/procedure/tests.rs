@@ -145,6 +145,7 @@ fn pour([t_s, until_s]: [f64; 2], ml: f64, ml_s: f64, acid: f64) -> Event {
         fastest_m3_s: ml_s * 1e-6,
         acid,
         met: Some(Content::default()),
+        bare_face: false,
     })
 }
 

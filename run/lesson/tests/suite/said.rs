@@ -10,14 +10,14 @@ use vitriol_lesson::{
 use vitriol_sim::scene::Scene;
 
 /// Water poured into acid, then acid into water, as a recording has them.
-fn attempts() -> [Attempt; 2] {
+pub(super) fn attempts() -> [Attempt; 2] {
     let events: Vec<Event> = serde_json::from_str(include_str!("../events.json")).unwrap();
     Attempt::all(events).try_into().unwrap()
 }
 
-static TEXTS: LazyLock<Texts> = LazyLock::new(|| Texts::english().unwrap());
+pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(|| Texts::english().unwrap());
 
-fn score(attempt: &Attempt) -> Score {
+pub(super) fn score(attempt: &Attempt) -> Score {
     Score::of(attempt, &Rubric::default(), &TEXTS)
 }
 
@@ -52,6 +52,15 @@ fn untouched() -> Attempt {
 fn the_wrong_order_is_told_with_its_causes() {
     let [wrong, _] = attempts();
     let said = said(&wrong);
+    let (caps, said) = said.split_at(2);
+    let caps: Vec<_> = caps.iter().map(|it| it.text.as_str()).collect();
+    assert_eq!(
+        caps,
+        [
+            "At most 40 of 100 points: water was poured into acid.",
+            "At most 40 of 100 points: concentrated or hot acid came to bare skin.",
+        ]
+    );
     let bad = said.iter().filter(|it| it.tone == Tone::Bad);
     let bad: Vec<_> = bad
         .map(|it| (it.text.as_str(), it.more.as_deref().unwrap_or("")))
@@ -157,12 +166,12 @@ fn points_are_what_the_rubric_says() {
     let [wrong, right] = attempts().map(|it| score(&it));
     let of = |score: &Score| Criterion::ALL.map(|it| points(score, it).unwrap());
     // 12.3 mL/s between 5 and 20: 15 · 7.7/15 = 7.7; 134 °C, above 100; 2.6 mL of 5 spilt: 10 · 2.4/5 =
-    // 4.8; on skin (0.21 + 0.047/4) mL of 0.5: 15 · 0.278/0.5 = 8.3.
+    // 4.8; on skin five drops and a quarter, where one leaves no points.
     assert_eq!(
         of(&wrong),
-        [(0, 25), (7, 15), (0, 15), (0, 15), (4, 10), (8, 15), (0, 5)]
+        [(0, 25), (7, 15), (0, 15), (0, 15), (4, 10), (0, 15), (0, 5)]
     );
-    assert_eq!((wrong.points, wrong.of), (19, 100));
+    assert_eq!((wrong.points, wrong.of), (11, 100));
     // 0.078 mL of 5: 10 · 4.922/5 = 9.8.
     assert_eq!(
         of(&right),
@@ -222,6 +231,7 @@ fn who_dilutes_nothing_has_no_points_for_it() {
         fastest_m3_s: 30e-6,
         acid: 0.0,
         met: None,
+        bare_face: false,
     }];
     let with_acid = score(&attempt);
     for criterion in &Criterion::ALL[..3] {
@@ -285,7 +295,12 @@ fn hot_liquid_on_skin_says_how_long_it_takes() {
         protected: false,
     };
     let said = said(&right);
-    let bad = said.iter().find(|it| it.tone == Tone::Bad).unwrap();
+    // Behind the cap.
+    let bad = said
+        .iter()
+        .filter(|it| it.tone == Tone::Bad)
+        .nth(1)
+        .unwrap();
     assert_eq!(
         bad.more.as_deref(),
         Some(

@@ -21,14 +21,14 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// Not asked for yet, in that language.
+    /// Not asked for yet, in that language, scored by `rubric`.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
-    pub fn new(language: Language) -> Result<Self, Failure> {
+    pub fn new(language: Language, rubric: Rubric) -> Result<Self, Failure> {
         Ok(Self {
             texts: Texts::of(language).other()?,
-            rubric: Rubric::default(),
+            rubric,
             asked: false,
             shown: None,
         })
