@@ -63,6 +63,16 @@ pub enum ShaderError {
         /// The buffer or immediate variable.
         variable: String,
     },
+    /// The file has no line `const NAME: f32 = NUMBER;` with that name, or more than one. Name one that it has.
+    #[error(
+        "{file} has not exactly one line 'const {name}: f32 = NUMBER;': name a constant that it has"
+    )]
+    NoNumber {
+        /// Path of the file, relative to the `wgsl` folder.
+        file: String,
+        /// The constant asked for.
+        name: String,
+    },
     /// The shader is valid as written, but not with these override constants, or naga cannot
     /// write it as SPIR-V. Change the constants or the construct named in the message.
     #[error("{shader}, entry point '{entry}', cannot be specialised: {message}")]

@@ -32,6 +32,7 @@ mod files;
 mod fold;
 mod include;
 mod library;
+mod number;
 mod reflect;
 mod reload;
 mod spirv;

@@ -10,6 +10,7 @@ use crate::compile::{CompileOptions, Compiled, compile};
 use crate::error::ShaderError;
 use crate::files;
 use crate::include::{Expanded, expand};
+use crate::number::number_in;
 use crate::reload::fits;
 use crate::{EMBEDDED, ShaderId};
 
@@ -106,6 +107,38 @@ impl Library {
     pub fn with_options(mut self, options: CompileOptions) -> Self {
         self.options = options;
         self
+    }
+
+    /// The value of the constant `name` of the file at `path`, which has a line `const NAME: f32 = NUMBER;`.
+    ///
+    /// # Errors
+    /// [`ShaderError::UnknownShader`], [`ShaderError::NoNumber`].
+    pub fn number(&self, path: &str, name: &str) -> Result<f64, ShaderError> {
+        let state = self.state();
+        Ok(number_in(path, text(&state.files, path), name)?.1)
+    }
+
+    /// This library with `times` the value of that constant, for all shaders that include the file. A watched file that changes on disk
+    /// has its own value again.
+    ///
+    /// # Errors
+    /// [`ShaderError::UnknownShader`], [`ShaderError::NoNumber`].
+    pub fn with_number_times(
+        self,
+        path: &str,
+        name: &str,
+        times: f64,
+    ) -> Result<Self, ShaderError> {
+        let mut state = self.state();
+        let (place, value) = number_in(path, text(&state.files, path), name)?;
+        if let Some(file) = state.files.get_mut(path) {
+            // Debug writes a decimal point or an exponent, without which WGSL would read an integer.
+            file.text
+                .replace_range(place, &format!("{:?}", times * value));
+        }
+        state.shaders.clear();
+        drop(state);
+        Ok(self)
     }
 
     /// The text of a shader with its includes in place.

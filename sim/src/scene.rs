@@ -1,6 +1,7 @@
 //! Scenes as data: a TOML file with vessels, liquids, features and their
 //! parameters.
 
+mod base;
 mod builtin;
 mod chemistry;
 mod contents;
@@ -100,7 +101,8 @@ impl Scene {
         Self::parse(text, &format!("{name}.toml"))
     }
 
-    /// A scene from its TOML `text`; `file` is its name in messages.
+    /// A scene from its TOML `text`; `file` is its name in messages. What a scene leaves out it takes from the built-in one that its key
+    /// `base` names: tables by key, lists as a whole.
     ///
     /// # Errors
     /// [`SceneError`] where the text is not TOML, a key is missing or
@@ -108,11 +110,7 @@ impl Scene {
     /// particle, flasks overlap or a liquid does not fit, under any of the
     /// scene's presets.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
-        let raw: file::SceneFile = toml::from_str(text).map_err(|error| SceneError::Syntax {
-            file: file.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        Self::build(raw).map_err(|problem| problem.in_file(file))
+        Self::build(base::read(text, file)?).map_err(|problem| problem.in_file(file))
     }
 
     /// The scene under a preset. Volumes stay, so the number of particles

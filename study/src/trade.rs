@@ -10,6 +10,7 @@ mod page;
 pub(crate) mod plot;
 pub mod report;
 mod setting;
+mod shader_constants;
 mod sweep;
 mod tank;
 mod vouch;

@@ -5,4 +5,5 @@ mod common;
 mod compile;
 mod include;
 mod layout;
+mod number;
 mod reload;

@@ -71,6 +71,8 @@ const STAYS: f32 = 1e-3;
 const LOT_STEP: f32 = 0.5 / 1024.0;
 /// Greatest speed with which a cavity leaves glass and other cavities, m/s: one that leaps throws particles.
 const MOST_SHIFT: f32 = 0.1;
+/// How near to a particle a bubble takes over that particle's flask, over d. Chosen.
+const TAKES_FLASK: f32 = 0.5;
 
 var<workgroup> claimed: array<u32, 64>;
 var<workgroup> joined: array<vec3<i32>, 64>;
@@ -297,7 +299,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         }
     }
     // Liquid that is poured changes its flask, and what is in it with it.
-    if (s.nearest_of_all.distance < 0.5 * SPACING) { bubble.membership = tags[s.nearest_of_all.particle].x; }
+    if (s.nearest_of_all.distance < TAKES_FLASK * SPACING) { bubble.membership = tags[s.nearest_of_all.particle].x; }
     if (is_there(bubble)) {
         atomicMax(&bubbled[nearest * BUBBLED_WORDS + BUBBLED_NEXT], i32(key_of(bubble, slot)));
     }

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use vitriol_gpu::Gpu;
 use vitriol_run::{Blame, Failure, Format, device, emit, output, track};
+use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene, SolverSettings};
 use vitriol_xr::track::Track;
 
@@ -11,7 +12,7 @@ use super::calorimeter::resolution;
 use crate::calorimeter::{self, Feed};
 use crate::cli::{TradeArgs, TradePart};
 use crate::merge::read;
-use crate::trade::constants::{CONSTANTS, Change};
+use crate::trade::constants::{self, Change};
 use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
     Errors, Point, Seeds, Setting, Tipped, Trade, boil, convergence, describe, finest, merge, page,
@@ -42,6 +43,9 @@ const ABLATED: [Feature; 8] = [
 ];
 /// Number of seeds of chaotic runs, and of those that leave a feature out.
 const SEEDS: [u64; 2] = [10, 4];
+
+/// Constants that `--quick` changes: one of scenes, one of shaders.
+const QUICK: [&str; 2] = ["mixing", "CONTACT"];
 
 /// Number of seeds that run at once.
 const AT_ONCE: usize = 3;
@@ -225,22 +229,24 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Both orders of pouring, with each constant as in the scene, halved and doubled.
+    /// Both orders of pouring, with each constant of scene and shaders as it is, halved and doubled.
     fn constants(&mut self) -> Result<(), Failure> {
         let track = track::load(BOILING.1)?;
-        let (seeds, seconds, take) = if self.args.quick {
-            (1, 3.0, 1)
+        let quick = self.args.quick;
+        let (seeds, seconds) = if quick {
+            (1, 3.0)
         } else {
-            (SEEDS[1], track.duration(), CONSTANTS.len())
+            (SEEDS[1], track.duration())
         };
         for name in [BOILING.0, REVERSED] {
             let scene = Scene::builtin(name).other()?.with_preset(Preset::Balanced);
-            let changed = CONSTANTS.iter().take(take).flat_map(|constant| {
-                let value = constant.of(&scene);
-                let times = [0.5, 2.0].into_iter();
-                times.filter_map(move |times| Some((Some(*constant), value?, times)))
-            });
-            for (constant, value, times) in std::iter::once((None, 1.0, 1.0)).chain(changed) {
+            let mut rows = vec![(None, 1.0, 1.0)];
+            for constant in constants::all().filter(|it| !quick || QUICK.contains(&it.key)) {
+                if let Some(value) = constant.of(&scene).other()? {
+                    rows.extend([0.5, 2.0].map(|times| (Some(constant), value, times)));
+                }
+            }
+            for (constant, value, times) in rows {
                 if !self.takes_next() {
                     continue;
                 }
@@ -248,10 +254,14 @@ impl Work<'_> {
                     self.found.skipped += 1;
                     continue;
                 }
-                let other = constant.map_or_else(|| scene.clone(), |c| c.times(&scene, times));
-                let all: Vec<u64> = (1..=seeds).collect();
-                let boil = |&seed: &u64| Ok(boil(self.gpu, &other, &track, seconds, seed)?.0);
-                let found = at_a_time(AT_ONCE, &all, boil)?;
+                let (other, shaders) = match constant {
+                    Some(constant) => constant.times(&scene, times).other()?,
+                    None => (scene.clone(), Library::embedded()),
+                };
+                let of = (&other, &shaders);
+                let numbers: Vec<u64> = (1..=seeds).collect();
+                let boil = |&seed: &u64| Ok(boil(self.gpu, of, &track, seconds, seed)?.0);
+                let found = at_a_time(AT_ONCE, &numbers, boil)?;
                 self.found.constants.push(Change {
                     constant,
                     value,
@@ -278,9 +288,11 @@ impl Work<'_> {
             return Ok(());
         }
         // The first alone, for its time; the others, whose time is not used, several at once.
-        let (first, cost) = boil(self.gpu, scene, track, seconds, 1)?;
+        let shaders = Library::embedded();
+        let of = (scene, &shaders);
+        let (first, cost) = boil(self.gpu, of, track, seconds, 1)?;
         let others: Vec<u64> = (2..=count).collect();
-        let boil = |&seed: &u64| Ok(boil(self.gpu, scene, track, seconds, seed)?.0);
+        let boil = |&seed: &u64| Ok(boil(self.gpu, of, track, seconds, seed)?.0);
         let others = at_a_time(AT_ONCE, &others, boil)?;
         let seeds = std::iter::once(first).chain(others);
         self.found

@@ -94,18 +94,18 @@ impl Seeds {
     }
 }
 
-/// Pours by `track` in `scene` for `seconds`; also the times of its frames.
+/// Pours by `track` in `scene`, simulated by `shaders`, for `seconds`; also the times of its frames.
 ///
 /// # Errors
 /// The error of device or track.
 pub fn boil(
     gpu: &Gpu,
-    scene: &Scene,
+    (scene, shaders): (&Scene, &Library),
     track: &Track,
     seconds: f64,
     seed: u64,
 ) -> Result<(Boiled, Cost), Failure> {
-    let mut world = World::new(gpu, &Library::embedded(), scene, seed).other()?;
+    let mut world = World::new(gpu, shaders, scene, seed).other()?;
     let mut source = TrackSource::new(track.clone());
     let dt = scene.scale.frame_time;
     let steps = (seconds / dt).ceil() as u64;

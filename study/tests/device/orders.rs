@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glam::Vec3;
+use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_study::trade::{Boiled, boil};
 use vitriol_tests::gpu;
@@ -11,6 +12,7 @@ use vitriol_xr::track::Keyframes;
 /// Pours 20 mL both ways for `seconds`, in the scene after `change`: water into acid and acid into water.
 fn both_ways(seconds: f64, change: impl Fn(&mut Scene)) -> [Boiled; 2] {
     let device = gpu::device();
+    let shaders = Library::embedded();
     let text = include_str!("../../../tests/tracks/pours.toml");
     let keyframes = Keyframes::parse(text, Path::new("pours.toml")).unwrap();
     let track = keyframes.sample_track();
@@ -19,7 +21,7 @@ fn both_ways(seconds: f64, change: impl Fn(&mut Scene)) -> [Boiled; 2] {
         change(&mut scene);
         // In the hand that holds it from the start.
         scene.flasks[0].stage_from_flask.position = Vec3::new(0.034, 0.890, -0.400);
-        let boiled = boil(&device, &scene, &track, seconds, 1).unwrap().0;
+        let boiled = boil(&device, (&scene, &shaders), &track, seconds, 1).unwrap().0;
         eprintln!("{name}: {boiled:?}");
         boiled
     })

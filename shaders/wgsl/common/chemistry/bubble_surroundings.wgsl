@@ -194,9 +194,11 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
 const FOLLOWS: f32 = 0.3;
 /// Most of it in a step: until the next one, particles hold what has become a cavity too.
 const MOST_FOLLOWED: f32 = 0.2;
+/// What is added to the share that is none yet: without it, a bubble that is a cavity altogether would stay one. Chosen.
+const STILL_FOLLOWS: f32 = 0.05;
 
 /// Share of a bubble that is a cavity: as it is wider than particles resolve, and what of it they cannot hold.
 fn cavity_of(bubble: Bubble, s: Surrounding) -> f32 {
-    let crowd = FOLLOWS * (s.crowded - 1.0) * (1.0 - bubble.cavity + 0.05);
+    let crowd = FOLLOWS * (s.crowded - 1.0) * (1.0 - bubble.cavity + STILL_FOLLOWS);
     return clamp(bubble.cavity + clamp(crowd, -MOST_FOLLOWED, MOST_FOLLOWED), cavity_share(bubble.radius), 1.0);
 }

@@ -3,9 +3,9 @@
 // is partly either.
 //!include common/liquid/kernel.wgsl
 
-/// Radii over h from which on a bubble is partly a cavity, and altogether: at h = 2d its diameter is 1.6 and 2.4 d.
+/// Radii over h from which on a bubble is partly a cavity, and altogether: at h = 2d its diameter is 1.6 and 2.4 d. Chosen.
 const CAVITY_FROM: f32 = 0.4;
-const CAVITY_WHOLE: f32 = 0.6;
+const CAVITY_WHOLE: f32 = 1.5 * CAVITY_FROM;
 
 /// Cells around its own that a bubble reaches at most: of 20 mm at d = 1.25 mm.
 const CAVITY_CELLS: i32 = 9;

@@ -12,6 +12,9 @@ const IMMERSED: f32 = 0.9;
 const RESTS: f32 = 0.2;
 /// Most of a neighbourhood that tells a stream's diameter.
 const WIDEST: f32 = 0.9;
+/// Most that a stream's width changes in a step of the bubbles, over itself. Chosen: a stream thins by no
+/// more in that time.
+const MOST_THINNED: f32 = 0.02;
 
 /// Diameter of a stream whose particles fill that share of their neighbourhoods, m. Of n × n in its section, at h = 2d, they fill
 /// (1 − 0.3/n)², and it is as wide as a circle of n² d².
@@ -19,12 +22,12 @@ fn width_of_stream(filled: f32) -> f32 {
     return 0.169 * SUPPORT / (1.0 - sqrt(min(filled, WIDEST)));
 }
 
-/// Width of a falling particle's stream, which changes by 2 % at most in a step of the bubbles: a stream thins by no more in that
-/// time, and what fills its neighbourhood just before it is in liquid is no stream. `fall` is its entry of `falls`.
+/// Width of a falling particle's stream, which changes by `MOST_THINNED` at most in a step of the bubbles: what fills its
+/// neighbourhood just before it is in liquid is no stream. `fall` is its entry of `falls`.
 fn width_of_fall(fall: vec2<f32>, filled: f32) -> f32 {
     let width = width_of_stream(filled);
     if (fall.x < RESTS) { return width; }
-    return clamp(width, 0.98 * fall.y, 1.02 * fall.y);
+    return clamp(width, (1.0 - MOST_THINNED) * fall.y, (1.0 + MOST_THINNED) * fall.y);
 }
 
 /// Air over liquid that a stream of `speed` (m/s) and `width` (m) takes down: 0.04 Fr^0.28 (L/D)^0.4 (Biń 1993), here with the

@@ -53,11 +53,13 @@ const FILM_FROM: f32 = 2e-3;
 const THINNEST: f32 = 0.05;
 /// Shortest time of drainage, s: before it a film is as thick as the bubble is wide.
 const LEAST_DRAINED: f32 = 1e-3;
+/// Greatest thickness of a film over the bubble's radius. Chosen.
+const THICKEST: f32 = 0.1;
 
 /// Thickness of a bubble's film that has lain at the surface for `time`, m: R (μR/(σt))^⅔ (Lhuissier and Villermaux 2012).
 fn film_thickness(radius: f32, time: f32, around: Around) -> f32 {
     let drained = around.viscosity * radius / (around.tension * max(time, LEAST_DRAINED));
-    return radius * clamp(pow(drained, 2.0 / 3.0), THINNEST * radius, 0.1);
+    return radius * clamp(pow(drained, 2.0 / 3.0), THINNEST * radius, THICKEST);
 }
 
 /// Drops of a bubble's film of that age (Lhuissier and Villermaux 2012): diameter R^(3/8) h^(5/8), number
