@@ -2,6 +2,7 @@
 //!
 //! A track may come from anyone, so what it names is looked up here and never in the file system.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -80,12 +81,11 @@ impl Scenes {
         self.own.keys().map(String::as_str)
     }
 
-    /// Text of the scene of that name.
-    pub fn text(&self, name: &str) -> Option<&str> {
-        match self.own.get(name) {
-            Some(text) => Some(&text.toml),
-            None => Scene::builtin_text(name),
-        }
+    /// Text of the scene of that name, which stands alone.
+    pub fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        let own = self.own.get(name).map(|text| &*text.toml);
+        own.or_else(|| Scene::builtin_text(name))
+            .map(Scene::complete)
     }
 }
 

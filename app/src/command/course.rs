@@ -66,7 +66,7 @@ pub fn judging(
 ) -> Result<Judging, Failure> {
     let mut scenes = Scenes::default();
     let own = scenes.open(&lesson.scene)?;
-    if own != scene || scenes.text(&own) != text {
+    if own != scene || scenes.text(&own).as_deref() != text {
         let of = &lesson.scene;
         return Err(format!(
             "--lesson {}: it is of the scene {of}, and what is judged begins with {scene}, or with another text of that: take \

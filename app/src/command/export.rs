@@ -304,7 +304,7 @@ fn metadata(plan: &ReplayPlan, device: &vitriol_run::DeviceStatement) -> TrackMe
         .filter_map(|name| Some((name, plan.scenes.text(name)?)));
     metadata
         .scenes
-        .extend(own.map(|(name, text)| (name.to_owned(), text.to_owned())));
+        .extend(own.map(|(name, text)| (name.to_owned(), text.into_owned())));
     // Of keyframes, which it is not any more.
     metadata.parameters.remove("track");
     for (key, value) in [

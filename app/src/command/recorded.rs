@@ -117,7 +117,7 @@ pub fn differences(
 /// Whether the scene of that name is the recorded one, as far as that is known: older tracks carry no text.
 fn has_recorded_text(metadata: &TrackMetadata, name: &str, scenes: &Scenes) -> bool {
     let recorded = metadata.scenes.get(name);
-    recorded.is_none_or(|recorded| scenes.text(name) == Some(recorded))
+    recorded.is_none_or(|recorded| scenes.text(name).is_some_and(|own| own == *recorded))
 }
 
 /// The events that the session recorded; one that this version cannot read is left out.

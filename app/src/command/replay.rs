@@ -157,7 +157,7 @@ fn replay(
     let lesson = args.judge.chosen()?;
     let judging = lesson.as_ref().map(|(lesson, mode)| {
         let text = scenes.text(&name_of_start);
-        course::judging((lesson, *mode), (&name_of_start, text))
+        course::judging((lesson, *mode), (&name_of_start, text.as_deref()))
     });
     let judging = judging.transpose()?;
     let asked = ask.otherwise(&track);

@@ -72,7 +72,7 @@ fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
         let scenes = &mut track.metadata.scenes;
         scenes
             .entry(name.clone())
-            .or_insert_with(|| text.to_owned());
+            .or_insert_with(|| Scene::complete(text).into_owned());
     }
     let written = tracks::save(&track, output, Existing::Refuse).map_err(track::blame)?;
     let conversion = Conversion {

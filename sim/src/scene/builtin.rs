@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 13] = [
+pub(super) const BUILTIN: [(&str, &str); 17] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -28,6 +28,16 @@ pub(super) const BUILTIN: [(&str, &str); 13] = [
     (
         "acid-into-water",
         include_str!("../../scenes/acid-into-water.toml"),
+    ),
+    ("hot-acid", include_str!("../../scenes/hot-acid.toml")),
+    ("hot-acid-85", include_str!("../../scenes/hot-acid-85.toml")),
+    (
+        "layer-and-swirl",
+        include_str!("../../scenes/layer-and-swirl.toml"),
+    ),
+    (
+        "layer-and-swirl-right",
+        include_str!("../../scenes/layer-and-swirl-right.toml"),
     ),
     (
         "boiling-water",

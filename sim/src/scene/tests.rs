@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
+mod base;
 mod builtin;
 mod refused;
 mod sizes;

@@ -54,7 +54,7 @@ impl Expected {
         scenes.get(&name)?;
         let text = scenes.text(&name).ok_or("the scene has no text").other()?;
         if let Some((lesson, mode)) = &lesson {
-            course::judging((lesson, *mode), (&name, Some(text)))?;
+            course::judging((lesson, *mode), (&name, Some(&*text)))?;
         }
         let of_lesson = lesson.as_ref();
         let rubric = of_lesson.map(|(lesson, _)| lesson.rubric());
@@ -66,7 +66,7 @@ impl Expected {
                 lesson: of_lesson.map(|(lesson, mode)| AskedLesson::of(lesson, *mode)),
                 scene: name,
             },
-            text: text.to_owned(),
+            text: text.into_owned(),
             lesson,
         })
     }

@@ -96,7 +96,8 @@ impl Verified {
             )
         })?;
         if let Some((lesson, mode)) = &expected.lesson {
-            let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));
+            let text = plan.scenes.text(&plan.name);
+            let scene = (plan.name.as_str(), text.as_deref());
             experiment.judge(course::judging((lesson, *mode), scene)?);
         }
         let mut observer = Observer::new(plan.span, Vec::new(), bars.of(&name, plan.span));

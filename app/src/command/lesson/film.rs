@@ -84,7 +84,8 @@ pub fn make(
         look: None,
         shaders: Arc::new(Library::embedded()),
     })?;
-    let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));
+    let text = plan.scenes.text(&plan.name);
+    let scene = (plan.name.as_str(), text.as_deref());
     experiment.judge(course::judging((lesson, MODE), scene)?);
 
     std::fs::create_dir_all(folder).other()?;

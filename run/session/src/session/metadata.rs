@@ -20,7 +20,7 @@ pub(super) fn metadata(
         .chain([plan.scene.as_str()]);
     let scenes = scenes.filter_map(|name| {
         let text = plan.scenes.text(name)?;
-        Some((name.to_owned(), text.to_owned()))
+        Some((name.to_owned(), text.into_owned()))
     });
     let parameters = [
         (PRESET, plan.preset.name()),
@@ -91,7 +91,8 @@ mod tests {
             assert_eq!(metadata.parameters[name], value);
         }
         for name in ["two-flasks", "acid-into-water", "vr-dilution"] {
-            assert_eq!(metadata.scenes[name], Scene::builtin_text(name).unwrap());
+            let text = Scene::builtin_text(name).unwrap();
+            assert_eq!(metadata.scenes[name], Scene::complete(text));
         }
     }
 }

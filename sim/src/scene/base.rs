@@ -1,0 +1,66 @@
+//! A scene that says how it differs from one that comes with the program: `base = "NAME"`.
+
+use std::borrow::Cow;
+
+use toml::{Table, Value};
+
+use super::Scene;
+use super::error::{Problem, SceneError};
+use super::file::SceneFile;
+
+/// Keys that a scene has of its own.
+const OWN: [&str; 2] = ["name", "description"];
+
+/// Reads a scene's `text` with what it takes from its base; `file` is its name in messages.
+pub(super) fn read(text: &str, file: &str) -> Result<SceneFile, SceneError> {
+    let read = match with_base(text, file)? {
+        Some(whole) => whole.try_into(),
+        // Its messages have lines.
+        None => toml::from_str(text),
+    };
+    read.map_err(|error| SceneError::Syntax {
+        file: file.to_owned(),
+        message: error.to_string().trim_end().to_owned(),
+    })
+}
+
+impl Scene {
+    /// The scene's text with what it takes from its base, which stands alone; as it is where it names none, or is no scene.
+    pub fn complete(text: &str) -> Cow<'_, str> {
+        let whole = with_base(text, "").ok().flatten();
+        let whole = whole.and_then(|whole| toml::to_string_pretty(&whole).ok());
+        whole.map_or(Cow::Borrowed(text), Cow::Owned)
+    }
+}
+
+/// The scene with its base's keys; `None` where it names no base, or is not TOML.
+fn with_base(text: &str, file: &str) -> Result<Option<Table>, SceneError> {
+    let Ok(mut own) = text.parse::<Table>() else {
+        return Ok(None);
+    };
+    let Some(base) = own.remove("base") else {
+        return Ok(None);
+    };
+    let known = base.as_str().and_then(Scene::builtin_text);
+    let whole = known.and_then(|base| Scene::complete(base).parse::<Table>().ok());
+    let Some(mut whole) = whole else {
+        let names = Scene::builtin_names().join(", ");
+        let problem = format!("{base} is not built in; take one of {names}");
+        return Err(Problem::new("base", problem).in_file(file));
+    };
+    whole.retain(|key, _| !OWN.contains(&key));
+    merge(&mut whole, own);
+    Ok(Some(whole))
+}
+
+/// Tables are merged by key; values and lists of `own` replace those of `whole`.
+fn merge(whole: &mut Table, own: Table) {
+    for (key, value) in own {
+        match (whole.get_mut(&key), value) {
+            (Some(Value::Table(whole)), Value::Table(own)) => merge(whole, own),
+            (_, value) => {
+                whole.insert(key, value);
+            }
+        }
+    }
+}
