@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 9] = [
+pub const NAMES: [&str; 10] = [
     "two-flasks",
     "dilute",
     "shake",
@@ -16,6 +16,7 @@ pub const NAMES: [&str; 9] = [
     "hands-off",
     "emergency",
     "examination",
+    "layer-and-swirl",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -30,6 +31,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "hands-off" => Some(include_str!("../../tracks/hands-off.toml")),
         "emergency" => Some(include_str!("../../tracks/emergency.toml")),
         "examination" => Some(include_str!("../../tracks/examination.toml")),
+        "layer-and-swirl" => Some(include_str!("../../tracks/layer-and-swirl.toml")),
         _ => None,
     }
 }
