@@ -1,5 +1,16 @@
 //! The scenes that a session offers.
 
+/// The order in which acid and water meet in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// The correct one: the acid comes to the water.
+    Correct,
+    /// The incorrect one: the water comes to the acid.
+    Incorrect,
+    /// The scene teaches neither.
+    Neither,
+}
+
 /// A scene that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
@@ -9,18 +20,111 @@ pub struct Choice {
     pub scene: &'static str,
     /// What it is, for people.
     pub title: &'static str,
+    /// The order that it shows.
+    pub order: Order,
+    /// Name of the scene that shows the other order; `None` where there is none.
+    pub counterpart: Option<&'static str>,
 }
 
 /// The scenes.
-pub const CHOICES: [Choice; 6] = [
-    choice('1', "acid-into-water", "Correct: acid into water"),
-    choice('2', "water-into-acid", "Incorrect: water into acid"),
+pub const CHOICES: [Choice; 9] = [
+    choice('1', "acid-into-water", "Correct: acid into water").correct("water-into-acid"),
+    choice('2', "water-into-acid", "Incorrect: water into acid").incorrect("acid-into-water"),
     choice('3', "triple-dilution", "The paper's three flasks"),
     choice('4', "vr-dilution", "The paper's VR dilution"),
     choice('5', "two-flasks", "Water, two flasks"),
     choice('6', "three-flasks", "Water, three flasks"),
+    choice(
+        '7',
+        "layer-and-swirl-right",
+        "Correct: acid under water, swirled",
+    )
+    .correct("layer-and-swirl"),
+    choice('8', "layer-and-swirl", "Incorrect: water on acid, swirled")
+        .incorrect("layer-and-swirl-right"),
+    // It is in no pair, since no scene pours hot acid in the correct order. A second toggle leads to `water-into-acid`.
+    choice('9', "hot-acid", "Incorrect: water into hot acid").incorrect("acid-into-water"),
 ];
 
 const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
-    Choice { key, scene, title }
+    Choice {
+        key,
+        scene,
+        title,
+        order: Order::Neither,
+        counterpart: None,
+    }
+}
+
+impl Choice {
+    const fn correct(self, counterpart: &'static str) -> Self {
+        Self {
+            order: Order::Correct,
+            counterpart: Some(counterpart),
+            ..self
+        }
+    }
+
+    const fn incorrect(self, counterpart: &'static str) -> Self {
+        Self {
+            order: Order::Incorrect,
+            counterpart: Some(counterpart),
+            ..self
+        }
+    }
+}
+
+/// The choice of a scene of that name; `None` where it cannot be chosen.
+pub fn of(scene: &str) -> Option<&'static Choice> {
+    CHOICES.iter().find(|choice| choice.scene == scene)
+}
+
+/// Index of a scene of that name in [`CHOICES`].
+pub fn index(scene: &str) -> Option<u8> {
+    let at = CHOICES.iter().position(|choice| choice.scene == scene)?;
+    u8::try_from(at).ok()
+}
+
+/// Name of the scene that shows the other order than `scene`; `None` where there is none.
+pub fn counterpart(scene: &str) -> Option<&'static str> {
+    of(scene)?.counterpart
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Titles say the order, and a counterpart shows the other one.
+    #[test]
+    fn a_counterpart_shows_the_other_order() {
+        for choice in CHOICES {
+            let (begins, other) = match choice.order {
+                Order::Correct => ("Correct: ", Order::Incorrect),
+                Order::Incorrect => ("Incorrect: ", Order::Correct),
+                Order::Neither => {
+                    assert_eq!(choice.counterpart, None, "{}", choice.scene);
+                    assert!(!choice.title.contains("orrect"), "{}", choice.title);
+                    continue;
+                }
+            };
+            assert!(choice.title.starts_with(begins), "{}", choice.title);
+            let found = of(choice.counterpart.unwrap()).unwrap();
+            assert_eq!(found.order, other, "{}", choice.scene);
+        }
+    }
+
+    #[test]
+    fn the_counterpart_of_a_pairs_counterpart_is_itself() {
+        for scene in ["acid-into-water", "layer-and-swirl"] {
+            let other = counterpart(scene).unwrap();
+            assert_ne!(other, scene);
+            assert_eq!(counterpart(other), Some(scene));
+        }
+        assert_eq!(counterpart("hot-acid"), Some("acid-into-water"));
+        assert_eq!(counterpart("two-flasks"), None);
+        assert_eq!(index("hot-acid"), Some(8));
+        // Not one that can be chosen.
+        assert_eq!(counterpart("tomato-soup"), None);
+    }
 }

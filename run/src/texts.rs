@@ -33,6 +33,8 @@ pub struct PanelTexts {
     pub start: String,
     /// Text in the ring that fills meanwhile.
     pub starting: String,
+    /// Text of the button that changes to the other order of acid and water.
+    pub other_order: String,
     /// Text of the button that brings the bench before the user.
     pub recentre: String,
     /// Text of the button that asks for the summary.
@@ -64,6 +66,8 @@ pub struct PanelTexts {
     pub effort: EffortTexts,
     /// What each scene is, by its name.
     scene: BTreeMap<String, String>,
+    /// The same on its button, in two lines.
+    button: BTreeMap<String, String>,
 }
 
 /// Texts on liquid beside the flasks.
@@ -162,6 +166,11 @@ impl PanelTexts {
     /// What a scene is; of one without a text its name.
     pub fn scene<'a>(&'a self, name: &'a str) -> &'a str {
         self.scene.get(name).map_or(name, String::as_str)
+    }
+
+    /// What a scene is, in the two lines of its button; of one without a text its name.
+    pub fn button<'a>(&'a self, name: &'a str) -> &'a str {
+        self.button.get(name).map_or(name, String::as_str)
     }
 }
 
@@ -418,14 +427,16 @@ mod tests {
         }
     }
 
-    /// Each scene that can be chosen has its text, and no other has one.
+    /// Each scene that can be chosen has its texts, and no other has one.
     #[test]
     fn each_choice_has_its_text() {
         let choices: BTreeSet<&str> = CHOICES.iter().map(|choice| choice.scene).collect();
         for language in Language::ALL {
-            let words = Texts::of(language).unwrap().panel.scene;
-            let named: BTreeSet<&str> = words.keys().map(String::as_str).collect();
-            assert_eq!(named, choices, "{language}");
+            let words = Texts::of(language).unwrap().panel;
+            for texts in [&words.scene, &words.button] {
+                let named: BTreeSet<&str> = texts.keys().map(String::as_str).collect();
+                assert_eq!(named, choices, "{language}");
+            }
         }
         let english = Texts::english().unwrap().panel;
         for choice in CHOICES {

@@ -25,6 +25,8 @@ pub enum Command {
     },
     /// Start the present scene again. (With braces, since serde lets other fields pass in a variant without.)
     Reset {},
+    /// Change to the scene that shows the other order of acid and water than the present one: [`Choice::counterpart`](crate::Choice).
+    Toggle {},
     /// Hold simulated time, or let it go on.
     Pause {
         /// Whether to hold it.
@@ -56,11 +58,16 @@ impl Command {
     /// The reason why not, for the instructor.
     pub fn check(&self, student: &Student) -> Result<(), &'static str> {
         match self {
-            Self::Reset {} | Self::Spare { .. } | Self::Message { .. } if student.replays => {
+            Self::Reset {} | Self::Toggle {} | Self::Spare { .. } | Self::Message { .. }
+                if student.replays =>
+            {
                 Err("a replay does again what was done, and can only be held, slowed and ended")
             }
             Self::Scene { choice } if usize::from(*choice) >= student.choices.len() => {
                 Err("there is no such scene: reload the page")
+            }
+            Self::Toggle {} if student.choices.iter().all(|it| it.counterpart.is_none()) => {
+                Err("no scene of this program has another order")
             }
             Self::KV { value } => match student.k_v {
                 Some(range) if (range.least..=range.most).contains(value) => Ok(()),

@@ -26,6 +26,7 @@ fn student() -> Student {
         choices: List::clipped([Choice {
             title: Text::clipped("Correct: acid into water"),
             kind: Kind::Correct,
+            counterpart: Some(0),
         }]),
         k_v: Some(Range {
             least: 0.0,
@@ -73,6 +74,7 @@ fn what_is_said_is_understood() {
         (r#"{"do":"scene","choice":0}"#, Command::Scene { choice: 0 }),
         (r#"{"do":"k-v","value":0.5}"#, Command::KV { value: 0.5 }),
         (r#"{"do":"reset"}"#, Command::Reset {}),
+        (r#"{"do":"toggle"}"#, Command::Toggle {}),
         (r#"{"do":"pause","on":true}"#, Command::Pause { on: true }),
         (
             r#"{"do":"slow-motion","rate":0.25}"#,
@@ -109,6 +111,7 @@ fn what_is_nearly_right_is_refused() {
         // Other fields, in a variant without any too.
         r#"{"do":"reset","path":"/etc/passwd"}"#,
         r#"{"do":"end","really":true}"#,
+        r#"{"do":"toggle","choice":1}"#,
         r#"{"do":"pause","on":true,"off":true}"#,
         r#"{"do":"pause","on":true,"on":false}"#,
         r#"{"do":"pause"}"#,
@@ -167,6 +170,11 @@ fn what_a_student_cannot_do_is_refused() {
         ..student()
     };
     assert!(Command::KV { value: 0.5 }.check(&plain).is_err());
+    let other = Student {
+        choices: List::default(),
+        ..student()
+    };
+    assert!(Command::Toggle {}.check(&other).is_err());
     // Nothing of a recording can be changed.
     let replay = Student {
         replays: true,
@@ -175,6 +183,7 @@ fn what_a_student_cannot_do_is_refused() {
     let text = Text::clipped("Slowly!");
     for (command, can) in [
         (Command::Reset {}, false),
+        (Command::Toggle {}, false),
         (Command::Spare { on: true }, false),
         (Command::Message { text }, false),
         (Command::Pause { on: true }, true),

@@ -35,6 +35,8 @@ pub struct Choice {
     pub title: Text<NAME>,
     /// Its kind.
     pub kind: Kind,
+    /// Index in [`Student::choices`] of the scene that shows the other order; `None` where there is none.
+    pub counterpart: Option<u8>,
 }
 
 /// The operation that a scene teaches.

@@ -10,7 +10,7 @@ use crate::port::ORDERS;
 use crate::student::{NAME, SENTENCE, State, Student};
 
 /// Version of the messages between student's program and hub. Another one is refused.
-pub const PROTOCOL: u32 = 1;
+pub const PROTOCOL: u32 = 2;
 /// Most bytes of a message from a page. The longest valid one is a message of [`MESSAGE`](crate::MESSAGE) characters, each escaped as 12
 /// bytes.
 pub const MOST_FROM_PAGE: usize = 4 << 10;

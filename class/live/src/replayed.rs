@@ -14,7 +14,7 @@ use vitriol_xr::PoseFrame;
 use super::coder::{Coder, RawPicture};
 use super::serve::Console;
 use super::told::{incidents, readings};
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices;
 
 /// Time between two looks for orders while time is held.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -113,7 +113,7 @@ impl Live {
     fn state(&self, glimpse: &Glimpse<'_>) -> State {
         let (scene, switched) = glimpse.scene;
         let name = switched.unwrap_or(&self.scene);
-        let title = CHOICES.iter().find(|choice| choice.scene == name);
+        let title = choices::of(name);
         let mut controls = Controls {
             k_v: glimpse.intensity,
             ..self.controls.clone()

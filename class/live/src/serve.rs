@@ -12,7 +12,7 @@ use vitriol_sim::world::MOST_INTENSITY;
 
 use super::watchers::Watchers;
 use crate::args::ConsoleArgs;
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::{CHOICES, Order, index};
 
 /// A run's end of the console: the states that its loop sends, the orders that it receives, and the program's description.
 #[derive(Clone, Debug)]
@@ -147,10 +147,10 @@ pub fn invitation(hub: &Hub, format: Format) -> Result<String, Failure> {
 pub fn student(name: Option<&str>, is_session: bool) -> Student {
     let name = name.map(str::to_owned).or_else(computer);
     let name = name.unwrap_or_else(|| "computer".to_owned());
-    let kind = |scene: &str| match scene {
-        "acid-into-water" => Kind::Correct,
-        "water-into-acid" => Kind::Incorrect,
-        _ => Kind::Other,
+    let kind = |order: Order| match order {
+        Order::Correct => Kind::Correct,
+        Order::Incorrect => Kind::Incorrect,
+        Order::Neither => Kind::Other,
     };
     let choices = CHOICES.iter().filter(|_| is_session);
     Student {
@@ -158,7 +158,8 @@ pub fn student(name: Option<&str>, is_session: bool) -> Student {
         version: Text::clipped(env!("CARGO_PKG_VERSION")),
         choices: List::clipped(choices.map(|choice| Choice {
             title: Text::clipped(choice.title),
-            kind: kind(choice.scene),
+            kind: kind(choice.order),
+            counterpart: choice.counterpart.and_then(index),
         })),
         replays: !is_session,
         k_v: is_session.then_some(Range {

@@ -9,6 +9,8 @@ use vitriol_run::choices::{CHOICES, Choice};
 
 /// Key of [`Action::Start`].
 pub const START: char = 'b';
+/// Key of [`Decision::Toggle`].
+pub const TOGGLE: char = 't';
 /// Key of [`Decision::Recentre`].
 pub const RECENTRE: char = 'a';
 /// Key of [`Decision::Summary`].
@@ -29,6 +31,7 @@ pub fn decision(key: char) -> Option<Decision> {
     let key = key.to_ascii_lowercase();
     match key {
         START => Some(Decision::Act(Action::Start(None))),
+        TOGGLE => Some(Decision::Toggle),
         RECENTRE => Some(Decision::Recentre),
         SUMMARY => Some(Decision::Summary),
         HINT => Some(Decision::Act(Action::Hint(None))),
@@ -48,8 +51,14 @@ pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
     for Choice { key, title, .. } in CHOICES {
         text += &format!("\n  {key}  {title}");
     }
-    text +=
-        &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened");
+    for (key, does) in [
+        (START, "from the start"),
+        (TOGGLE, "the other order, of a pair"),
+        (RECENTRE, "recentre"),
+        (SUMMARY, "what happened"),
+    ] {
+        text += &format!("\n  {key}  {does}");
+    }
     for act in lesson.map_or(&[][..], can_ask) {
         let (key, does) = match act {
             Action::Hint(_) => (HINT, "a hint"),
@@ -79,16 +88,24 @@ mod tests {
         }
         assert_eq!(decision('B'), Some(Decision::Act(Action::Start(None))));
         assert_eq!(decision('s'), Some(Decision::Summary));
+        assert_eq!(decision('T'), Some(Decision::Toggle));
         assert_eq!(decision('x'), None);
         let acts = ['H', 'n', 'f'].map(decision);
         let expected = [Action::Hint(None), Action::Skip(None), Action::Finish];
         assert_eq!(acts, expected.map(|act| Some(Decision::Act(act))));
-        let keys = [START, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE];
+        let keys = [
+            START, TOGGLE, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE,
+        ];
         let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
         let count = all.len();
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), count);
+    }
+
+    #[test]
+    fn a_terminal_is_told_of_the_other_order() {
+        assert!(lines(false, None).contains("\n  t  the other order, of a pair\n"));
     }
 
     #[test]

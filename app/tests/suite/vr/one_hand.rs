@@ -208,7 +208,11 @@ fn either_hand_presses_each_button_from_its_place() {
     let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
     let all = [
         &scenes[..],
-        &[Decision::Act(Action::Start(None)), Decision::Recentre],
+        &[
+            Decision::Act(Action::Start(None)),
+            Decision::Toggle,
+            Decision::Recentre,
+        ],
     ]
     .concat();
     for decision in all {

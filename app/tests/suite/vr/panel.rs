@@ -118,14 +118,22 @@ pub fn press_from(panel: &mut Panel, from: Vec3, at: [f32; 2], seconds: f64) -> 
     decided
 }
 
-/// What is decided down the middle of the right half, in order, by a trigger that is pulled for so long.
+/// Where the middles of the scenes' three columns are, share of the panel's width. Other buttons reach over all of them.
+const COLUMNS: [f32; 3] = [0.58, 0.74, 0.90];
+
+/// Places over the right half of the panel, pixels: row by row, so many pixels apart.
+fn places(step: usize) -> impl Iterator<Item = [f32; 2]> {
+    let rows = (30..PANEL[1]).step_by(step);
+    rows.flat_map(|y| COLUMNS.map(|x| [x * PANEL[0] as f32, y as f32]))
+}
+
+/// What is decided over the right half, each once and in order, by a trigger that is pulled for so long.
 fn down_the_buttons(panel: &mut Panel, seconds: f64) -> Vec<Decision> {
     panel.update([None, None], &info(), 0);
     let mut decided = Vec::new();
-    for y in (30..PANEL[1]).step_by(12) {
-        let at = [0.75 * PANEL[0] as f32, y as f32];
+    for at in places(12) {
         if let Some(decision) = press(panel, at, seconds)
-            && decided.last() != Some(&decision)
+            && !decided.contains(&decision)
         {
             decided.push(decision);
         }
@@ -141,6 +149,7 @@ fn each_choice_can_be_pressed() {
     let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
     let others = [
         Decision::Act(Action::Start(None)),
+        Decision::Toggle,
         Decision::Recentre,
         Decision::Summary,
     ];
@@ -172,9 +181,9 @@ fn a_hold_is_of_one_button() {
         (120.0, 0.0),
         (120.0, 1.0),
         (120.0, 1.0),
-        (300.0, 1.0),
-        (300.0, 1.0),
-        (300.0, 1.0),
+        (270.0, 1.0),
+        (270.0, 1.0),
+        (270.0, 1.0),
     ]) {
         let hand = pointing(x, y, trigger);
         let now = 400_000_000 * tenth;
@@ -347,11 +356,10 @@ fn the_panel_is_legible() {
 pub fn place_of(gpu: &Gpu, decision: &Decision) -> [f32; 2] {
     let mut panel = Panel::new(gpu, &Library::embedded()).unwrap();
     panel.update([None, None], &info(), 0);
-    let x = 0.75 * PANEL[0] as f32;
-    let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);
-    let y = rows.find(|&y| press(&mut panel, [x, y], 1.2).as_ref() == Some(decision));
+    let found = places(6).find(|&at| press(&mut panel, at, 1.2).as_ref() == Some(decision));
     // Not at its edge.
-    [x, y.unwrap() + 15.0]
+    let [x, y] = found.unwrap();
+    [x, y + 15.0]
 }
 
 /// Points at a button of the panel, and presses it.

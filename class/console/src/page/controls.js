@@ -59,6 +59,7 @@ const toggle = (id, command, words) => {
 toggle("pause", "pause", ["Go on", "Pause"]);
 toggle("spare", "spare", ["Boiling heard again", "Boiling muted"]);
 $("reset").onclick = () => order({ do: "reset" }, "From the start", $("reset"));
+$("other-order").onclick = () => order({ do: "toggle" }, "The other order", $("other-order"));
 $("speed").onchange = () => {
   const rate = Number($("speed").value);
   order({ do: "slow-motion", rate }, `Speed ${$("speed").selectedOptions[0].textContent}`, $("speed"));
@@ -103,6 +104,8 @@ function showControls(state) {
   for (const part of $("controls").querySelectorAll("button, input, select")) {
     if (!part.closest("#set-k-v")) part.disabled = controls.ended;
   }
+  // Only a scene of a pair has another order.
+  if (!known(page.is.choices[state.choice]?.counterpart)) $("other-order").disabled = true;
   if (controls.ended) write($("said"), "The session is over.");
 }
 

@@ -80,6 +80,23 @@ fn each_control_does_what_it_says() {
             "{scenes}[{choice}].getAttribute('aria-pressed') === 'true'"
         ));
     }
+    // The other order, and back; the last scene above has one, and the one of index 2 has none.
+    let other = "document.getElementById('other-order')";
+    for choice in [1, 0] {
+        tab.until(&format!(
+            "!{other}.disabled && !('waits' in {other}.dataset)"
+        ));
+        tab.eval(&format!("{other}.click()"));
+        assert_eq!(student.ordered(), Command::Toggle {});
+        tab.until(&format!(
+            "{scenes}[{choice}].getAttribute('aria-pressed') === 'true'"
+        ));
+    }
+    for (choice, disabled) in [(2, true), (0, false)] {
+        tab.eval(&format!("{scenes}[{choice}].click()"));
+        assert_eq!(student.ordered(), Command::Scene { choice });
+        tab.until(&format!("{other}.disabled === {disabled}"));
+    }
     tab.eval("{ const speed = document.getElementById('speed'); speed.value = '0.25'; speed.dispatchEvent(new Event('change')) }");
     assert_eq!(student.ordered(), Command::SlowMotion { rate: 0.25 });
     tab.eval("document.getElementById('k-v').focus()");

@@ -33,17 +33,18 @@ pub fn hub(folder: &std::path::Path) -> Hub {
 }
 
 pub fn card(name: &str) -> Student {
-    let choice = |title: &str, kind| Choice {
+    let choice = |title: &str, kind, counterpart| Choice {
         title: Text::clipped(title),
         kind,
+        counterpart,
     };
     Student {
         name: Text::clipped(name),
         version: Text::clipped("0.1.0"),
         choices: List::clipped([
-            choice("Correct: acid into water", Kind::Correct),
-            choice("Incorrect: water into acid", Kind::Incorrect),
-            choice("The paper's three flasks", Kind::Other),
+            choice("Correct: acid into water", Kind::Correct, Some(1)),
+            choice("Incorrect: water into acid", Kind::Incorrect, Some(0)),
+            choice("The paper's three flasks", Kind::Other, None),
         ]),
         k_v: Some(Range {
             least: 0.0,
@@ -98,12 +99,20 @@ pub fn first_state() -> State {
 
 /// The effect of a command on the state.
 fn obey(state: &mut State, command: &Command) {
+    let choices = card("").choices;
+    let begin = |state: &mut State, choice: u8| {
+        state.choice = Some(choice);
+        state.scene = Text::clipped(&choices[usize::from(choice)].title);
+    };
+    let present = state.choice.map(usize::from);
+    let other = present.and_then(|at| choices[at].counterpart);
     let controls = &mut state.controls;
     match command {
-        Command::Scene { choice } => {
-            state.choice = Some(*choice);
-            let title = &card("").choices[usize::from(*choice)].title;
-            state.scene = Text::clipped(title);
+        Command::Scene { choice } => begin(state, *choice),
+        Command::Toggle {} => {
+            if let Some(other) = other {
+                begin(state, other);
+            }
         }
         Command::KV { value } => controls.k_v = Some(*value),
         Command::Reset {} => state.time_s = Some(0.0),

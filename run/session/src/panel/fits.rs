@@ -5,7 +5,7 @@ use egui::{Context, FontId};
 use vitriol_lesson::Language;
 
 use super::PANEL;
-use super::view::style;
+use super::view::{BESIDE, scene_text, style};
 use crate::menu::END;
 use vitriol_run::choices::CHOICES;
 use vitriol_run::texts::{PanelTexts, Texts};
@@ -45,14 +45,15 @@ fn lines(context: &Context, text: &str, room: f32) -> usize {
     })
 }
 
-/// What stands on buttons, as [`super::view`] puts it there.
+/// What stands on buttons of the column's width, as [`super::view`] puts it there.
 fn on_buttons(words: &PanelTexts) -> Vec<String> {
-    let scenes = CHOICES
-        .iter()
-        .map(|choice| words.scene(choice.scene).to_owned());
-    let others = [&words.start, &words.recentre, &words.happened];
-    let all = scenes.chain(others.into_iter().cloned());
-    all.map(|text| format!("W   {text}")).collect()
+    let all = [
+        &words.start,
+        &words.other_order,
+        &words.recentre,
+        &words.happened,
+    ];
+    all.map(|text| format!("W   {text}")).to_vec()
 }
 
 #[test]
@@ -71,6 +72,23 @@ fn each_button_has_its_text_in_a_line() {
             "{language}: {:?} {wide} of {RING}",
             words.starting
         );
+    }
+}
+
+/// Scenes' buttons share the column. Each of their two lines fits as it is broken in the table.
+#[test]
+fn each_scenes_button_has_its_text_in_two_lines() {
+    let context = context();
+    let gaps = 12.0 * (BESIDE - 1) as f32;
+    let room = (COLUMN - gaps) / BESIDE as f32 - 2.0 * PADDING;
+    for language in Language::ALL {
+        let words = Texts::of(language).unwrap().panel;
+        for choice in &CHOICES {
+            let text = scene_text(choice, &words);
+            assert_eq!(text.lines().count(), 2, "{language}: {text:?}");
+            let wide = width(&context, &text, SIZE);
+            assert!(wide <= room, "{language}: {text:?} {wide} of {room}");
+        }
     }
 }
 

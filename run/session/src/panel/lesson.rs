@@ -62,22 +62,26 @@ mod tests {
     /// Pixels of the panel's edge that no text comes to.
     const MARGIN: f32 = 20.0;
 
-    /// Where each text is on a panel that shows this lesson.
-    fn texts(lesson: Shown) -> Vec<(String, Rect)> {
+    /// A session in a scene with acid, and with this lesson.
+    fn with(lesson: Shown) -> Info {
         let flask = |name: &str| FlaskLine {
             broken: false,
             name: name.into(),
             temperature: Some(117),
             acid: Some(71),
         };
-        let info = Info {
+        Info {
             scene: "acid-into-water".into(),
             flasks: vec![flask("source"), flask("target")],
             acid: true,
             burns: [true, false, false],
             lesson: Some(lesson),
             ..Info::default()
-        };
+        }
+    }
+
+    /// Where each text is on a panel that shows this session.
+    fn texts(info: &Info) -> Vec<(String, Rect)> {
         let words = vitriol_run::texts::Texts::english().unwrap().panel;
         let context = Context::default();
         view::style(&context);
@@ -90,7 +94,7 @@ mod tests {
         let mut shapes = Vec::new();
         for _ in 0..2 {
             let output = context.run(input(), |context| {
-                view::show(context, (&info, &words), None, None);
+                view::show(context, (info, &words), None, None);
             });
             shapes = output.shapes;
         }
@@ -152,7 +156,7 @@ mod tests {
         let inside = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height)).shrink(MARGIN);
         for language in Language::ALL {
             let shown = longest(language);
-            let found = texts(shown.clone());
+            let found = texts(&with(shown.clone()));
             let place = |part: &str| {
                 let at = found.iter().find(|(text, _)| text.contains(part));
                 at.unwrap_or_else(|| panic!("{language}: {part} is not shown"))
@@ -201,17 +205,17 @@ mod tests {
     #[test]
     fn a_lesson_has_its_own_buttons() {
         let has = |shown: &Shown, part: &str| {
-            let found = texts(shown.clone());
+            let found = texts(&with(shown.clone()));
             found.iter().any(|(text, _)| text.contains(part))
         };
         let shown = longest(Language::En);
         assert!(has(&shown, "H   Hint") && has(&shown, "F   I am done"));
-        assert!(has(&shown, "What happened") && !has(&shown, "Correct: acid into water"));
+        assert!(has(&shown, "What happened") && !has(&shown, "1 ✔ acid"));
         let over = Shown {
             acts: Vec::new(),
             ..shown.clone()
         };
-        assert!(has(&over, "Correct: acid into water") && !has(&over, "H   Hint"));
+        assert!(has(&over, "1 ✔ acid") && !has(&over, "H   Hint"));
         assert!(has(&shown, "71 % acid") && has(&shown, "acid on your left hand"));
         let quiet = Shown {
             quiet: true,
@@ -221,5 +225,21 @@ mod tests {
         // Nor what it is judged by; how warm it is anybody can feel.
         assert!(!has(&quiet, "71 % acid") && !has(&quiet, "acid on your"));
         assert!(has(&quiet, "117"));
+    }
+
+    /// A button changes to the other order: where the scene has one, and scenes can be chosen.
+    #[test]
+    fn a_scene_of_a_pair_has_a_button_for_the_other_order() {
+        let has = |info: &Info| {
+            let found = texts(info);
+            found.iter().any(|(text, _)| text == "T   The other order")
+        };
+        let of = |scene: &str| Info {
+            scene: scene.into(),
+            ..Info::default()
+        };
+        assert!(has(&of("layer-and-swirl")) && has(&of("hot-acid")));
+        assert!(!has(&of("two-flasks")) && !has(&of("my-scene")));
+        assert!(!has(&with(longest(Language::En))));
     }
 }

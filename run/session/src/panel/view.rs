@@ -16,10 +16,16 @@ use super::lesson;
 use crate::decision::Decision;
 use crate::info::{FlaskLine, Happened, Info, burns_text};
 use crate::menu;
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::{self, CHOICES, Choice, Order};
 use vitriol_run::texts::PanelTexts;
 
 const HEADING: f32 = 34.0;
+/// Height of a button with one line of text, pixels.
+const LOW: f32 = 46.0;
+/// Height of a button with two lines.
+const TALL: f32 = 76.0;
+/// Scenes' buttons beside each other: so nine of them have room where an instructor's longest message stands above them.
+pub(super) const BESIDE: usize = 3;
 
 /// Where a thermometer's column ends, °C.
 const RANGE: [f32; 2] = [0.0, 180.0];
@@ -164,7 +170,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     ui.add_space(8.0);
     let ends = (info.ends).then(|| words.ends(menu::END));
     lines(ui, [ends], WARNING);
-    let size = vec2(0.5 * ui.available_width(), 46.0);
+    let size = vec2(0.5 * ui.available_width(), LOW);
     let key = menu::SUMMARY.to_ascii_uppercase();
     let text = format!("{key}   {}", happened.back);
     if ui.add(Button::new(text).min_size(size)).clicked() {
@@ -290,9 +296,20 @@ fn legend(ui: &mut Ui, words: &PanelTexts) {
     ui.label(RichText::new(&words.tints).color(FAINT));
 }
 
+/// What stands on a scene's button. A sign says the order by its shape, since its word has no room there.
+pub(super) fn scene_text(choice: &Choice, words: &PanelTexts) -> String {
+    let sign = match choice.order {
+        Order::Correct => " ✔",
+        Order::Incorrect => " ✖",
+        Order::Neither => "",
+    };
+    format!("{}{sign} {}", choice.key, words.button(choice.scene))
+}
+
 fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
-    let size = vec2(ui.available_width(), 46.0);
-    let mut button = |ui: &mut Ui, text: String, chosen: bool, decision: Decision| {
+    let mut button = |ui: &mut Ui, line: (String, f32), chosen: bool, decision: Decision| {
+        let (text, height) = line;
+        let size = vec2(ui.available_width(), height);
         let button = Button::new(text).min_size(size).selected(chosen);
         let answer = ui.add(button);
         if decision.loses_work() {
@@ -310,22 +327,31 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     // In a lesson its own buttons stand in place of the scenes'.
     let scenes = if asks.is_empty() { &CHOICES[..] } else { &[] };
     for (text, on, decision) in asks {
-        ui.add_enabled_ui(on, |ui| button(ui, text, false, decision));
+        ui.add_enabled_ui(on, |ui| button(ui, (text, LOW), false, decision));
     }
-    for choice in scenes {
-        let text = format!("{}   {}", choice.key, words.scene(choice.scene));
-        let decision = Decision::Act(Action::Scene(choice.scene.into()));
-        button(ui, text, info.scene == choice.scene, decision);
+    if !scenes.is_empty() {
+        ui.columns(BESIDE, |columns| {
+            for (at, choice) in scenes.iter().enumerate() {
+                let text = scene_text(choice, words);
+                let decision = Decision::Act(Action::Scene(choice.scene.into()));
+                let chosen = info.scene == choice.scene;
+                button(&mut columns[at % BESIDE], (text, TALL), chosen, decision);
+            }
+        });
     }
     let key = |key: char| key.to_ascii_uppercase();
     let start = format!("{}   {}", key(menu::START), words.start);
-    button(ui, start, false, Decision::Act(Action::Start(None)));
+    button(ui, (start, LOW), false, Decision::Act(Action::Start(None)));
+    if !scenes.is_empty() && choices::counterpart(&info.scene).is_some() {
+        let other = format!("{}   {}", key(menu::TOGGLE), words.other_order);
+        button(ui, (other, LOW), false, Decision::Toggle);
+    }
     ui.add_space(10.0);
     let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
-    button(ui, recentre, false, Decision::Recentre);
+    button(ui, (recentre, LOW), false, Decision::Recentre);
     if !shown.is_some_and(|it| it.quiet) {
         let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
-        button(ui, summary, false, Decision::Summary);
+        button(ui, (summary, LOW), false, Decision::Summary);
     }
     state(ui, info, words);
 }

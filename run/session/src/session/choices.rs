@@ -84,7 +84,11 @@ impl Choices {
 }
 
 fn brings_up(decision: &Decision) -> bool {
-    matches!(decision, Decision::Act(Action::Scene(_) | Action::Start(_)))
+    use Action::{Scene, Start};
+    matches!(
+        decision,
+        Decision::Toggle | Decision::Act(Scene(_) | Start(_))
+    )
 }
 
 #[cfg(test)]
@@ -114,6 +118,12 @@ mod tests {
         ];
         assert_eq!(choices.take(&hands, 0), expected);
         assert_eq!(choices.take(&hands, 0), []);
+        // Nor does the other order come up beside a scene.
+        for decision in [scene("first"), Decision::Toggle] {
+            keys.send(decision).unwrap();
+        }
+        assert!(!choices.hear(Instant::now()));
+        assert_eq!(choices.take(&hands, 0), [Decision::Toggle]);
     }
 
     #[test]

@@ -143,6 +143,9 @@ impl Session {
     ) -> Result<(), Failure> {
         let mut recentre = recentred;
         for decision in self.choices.take(&now.hands, now.info.xr_time) {
+            let Some(decision) = decision.at(self.run.scene()) else {
+                continue;
+            };
             match decision {
                 Decision::Act(Action::Scene(name)) => self.benches.build(headset.gpu(), name),
                 Decision::Act(Action::Start(_)) => {
@@ -157,8 +160,8 @@ impl Session {
                 Decision::Recentre => recentre = true,
                 Decision::Summary if self.guide.tells(&self.run) => self.summary.toggle(),
                 Decision::Summary => {}
-                // `Choices::hear` has taken them.
-                Decision::End | Decision::AskEnd => {}
+                // `Choices::hear` has taken two of them, and `at` the third.
+                Decision::End | Decision::AskEnd | Decision::Toggle => {}
             }
         }
         if let Some(leap) = self.placement.place(now, recentre) {

@@ -18,7 +18,7 @@ use crate::info::Told;
 use crate::session::spills::Spilt;
 use crate::view::View;
 use vitriol_live::{Console, incidents, readings};
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::{self, CHOICES};
 use vitriol_run::texts::InstructorTexts;
 
 /// How long the panel shows what the instructor has done, ns of the display. Our choice: it is read twice in that.
@@ -202,7 +202,7 @@ impl Instructor {
 
     fn state(&self, now: &Now<'_>) -> State {
         let (name, scene) = now.scene;
-        let title = CHOICES.iter().find(|choice| choice.scene == name);
+        let title = choices::of(name);
         let all = &self.incidents.1;
         // The last ones are shown.
         let lately = all.iter().skip(all.len().saturating_sub(32));
@@ -210,8 +210,7 @@ impl Instructor {
             frame: now.frame,
             time_s: Some(now.time),
             scene: Text::clipped(title.map_or(name, |choice| choice.title)),
-            choice: (CHOICES.iter().position(|choice| choice.scene == name))
-                .and_then(|at| u8::try_from(at).ok()),
+            choice: choices::index(name),
             done: self.done,
             controls: Controls {
                 k_v: now.intensity,
@@ -278,6 +277,7 @@ fn asked(command: Command, student: &Student) -> Option<Decision> {
     command.check(student).ok()?;
     Some(Decision::Act(match command {
         Command::End {} => return Some(Decision::End),
+        Command::Toggle {} => return Some(Decision::Toggle),
         Command::Scene { choice } => {
             let choice = CHOICES.get(usize::from(choice))?;
             Action::Scene(choice.scene.into())
@@ -289,4 +289,25 @@ fn asked(command: Command, student: &Student) -> Option<Decision> {
         Command::Spare { on } => Action::Mute(on),
         Command::Message { text } => Action::Message(text.to_string()),
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vitriol_live::student;
+
+    /// In a session the console can ask for the other order, and is told which scenes have one; in a replay none can be asked for.
+    #[test]
+    fn the_other_order_can_be_asked_for() {
+        let session = student(None, true);
+        let toggle = Command::Toggle {};
+        assert_eq!(asked(toggle.clone(), &session), Some(Decision::Toggle));
+        assert_eq!(asked(toggle, &student(None, false)), None);
+        for (choice, told) in CHOICES.iter().zip(session.choices.iter()) {
+            let other = told.counterpart.and_then(|at| CHOICES.get(usize::from(at)));
+            let other = other.map(|other| other.scene);
+            assert_eq!(other, choice.counterpart, "{}", choice.scene);
+        }
+        assert_eq!(session.choices.len(), CHOICES.len());
+    }
 }

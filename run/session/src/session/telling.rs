@@ -13,7 +13,7 @@ impl Session {
     pub(super) fn obey(&mut self) -> bool {
         let mut ends = false;
         for (order, asked) in self.instructor.orders() {
-            let said = match asked {
+            let said = match asked.and_then(|asked| asked.at(self.run.scene())) {
                 Some(Decision::End) => {
                     ends = true;
                     Some(self.texts.instructor.end.clone())
