@@ -36,6 +36,14 @@ pub enum Action {
     Hint(Option<String>),
     /// That step is left out; without an id the one that is open. A track names it.
     Skip(Option<String>),
+    /// The answer of that number, counted from 1, to the question of the lesson's step of that id; without one of the question that is
+    /// open. A track names it.
+    Answer {
+        /// The step.
+        step: Option<String>,
+        /// The answer's number.
+        answer: u8,
+    },
     /// The student is done with the lesson.
     Finish,
 }
@@ -60,6 +68,9 @@ impl Action {
 
     /// Whether it is of a lesson.
     pub fn is_of_lesson(&self) -> bool {
-        matches!(self, Self::Hint(_) | Self::Skip(_) | Self::Finish)
+        matches!(
+            self,
+            Self::Hint(_) | Self::Skip(_) | Self::Answer { .. } | Self::Finish
+        )
     }
 }

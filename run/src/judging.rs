@@ -93,6 +93,16 @@ impl Judging {
         match action {
             Action::Hint(Some(step)) => judge.ask_hint(step, t_s).into_iter().collect(),
             Action::Skip(Some(step)) => judge.skip(step, t_s),
+            Action::Answer {
+                step: Some(step),
+                answer,
+            } => {
+                let said = judge.answer(step, *answer, t_s);
+                if said.is_empty() {
+                    tracing::warn!("answer {answer} to {step:?} is left out: no such step is open");
+                }
+                said
+            }
             Action::Finish => {
                 let mut said = judge.advance(&self.sight, &so_far());
                 said.extend(judge.finish(t_s));

@@ -198,7 +198,7 @@ impl Run {
                 self.muted = *on;
                 self.audible.mute_boiling(*on);
             }
-            Action::Hint(_) | Action::Skip(_) | Action::Finish => {
+            Action::Hint(_) | Action::Skip(_) | Action::Answer { .. } | Action::Finish => {
                 if let Some(judging) = &mut self.judging {
                     judging.ask(now, action.clone());
                 }

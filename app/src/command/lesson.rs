@@ -34,6 +34,9 @@ struct Item {
     text: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     hint: Option<String>,
+    /// The answers to its question.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    answers: Vec<String>,
 }
 
 /// All of them.
@@ -95,6 +98,9 @@ pub fn run(
                 .hint
                 .as_ref()
                 .map_or_else(String::new, |hint| format!("     {hint}\n"));
+            for (number, answer) in (1..).zip(&step.answers) {
+                text += &format!("     {number}: {answer}\n");
+            }
         }
         for rule in &told.rules {
             text += &format!("  ·  {} ({})\n", rule.text, rule.points);
@@ -115,6 +121,7 @@ fn of(lesson: &Lesson, language: Language, words: &Texts) -> Told {
             points: step.points,
             text: said.map(|it| it.text.clone()).unwrap_or_default(),
             hint: said.map(|it| it.hint.clone()),
+            answers: said.map(|it| it.answers.clone()).unwrap_or_default(),
         }
     });
     let rules = lesson.rules.iter().map(|rule| Item {
@@ -122,6 +129,7 @@ fn of(lesson: &Lesson, language: Language, words: &Texts) -> Told {
         points: rule.points,
         text: texts.rule.get(&rule.id).cloned().unwrap_or_default(),
         hint: None,
+        answers: Vec::new(),
     });
     let (steps, rules): (Vec<_>, Vec<_>) = (steps.collect(), rules.collect());
     Told {

@@ -22,8 +22,8 @@ mod watch;
 mod words;
 
 pub use condition::{
-    Condition, Cool, HandName, Holds, Keep, Kind, Liquid, Measured, OfFlask, Poured, Rinsed,
-    SashAtMost, SashIs, SpiltAtMost, Stirred, TemperatureIs, Wiped, Worn,
+    Answered, Condition, Cool, HandName, Holds, Keep, Kind, Liquid, MOST_ANSWERS, Measured,
+    OfFlask, Poured, Rinsed, SashAtMost, SashIs, SpiltAtMost, Stirred, TemperatureIs, Wiped, Worn,
 };
 pub use error::LessonError;
 pub use file::{Lesson, Rule, Step};

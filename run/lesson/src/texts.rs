@@ -111,7 +111,7 @@ section!(CapTexts: most wrong_order acid_on_skin no_goggles);
 section!(Evidence: too_little too_little_acid mean);
 section!(LeftOut: nothing_poured no_acid no_heat);
 section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
-    sash_open time_up skipped not_done);
+    sash_open time_up wrong_answer skipped not_done);
 section!(ModeNames: guided free examination);
 section!(PanelTexts: hint skip finish steps more);
 
@@ -227,6 +227,11 @@ fn gather(path: &str, table: toml::Table, found: &mut BTreeMap<String, String>) 
         match value {
             toml::Value::Table(table) => gather(&path, table, found),
             toml::Value::String(text) => _ = found.insert(path, text),
+            toml::Value::Array(values) => {
+                let values = values.into_iter().enumerate();
+                let named = values.map(|(index, value)| (index.to_string(), value));
+                gather(&path, named.collect(), found);
+            }
             // Other values are refused where the table is read into its type.
             _ => {}
         }

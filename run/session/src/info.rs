@@ -61,6 +61,8 @@ pub struct Shown {
     pub hint: Option<String>,
     /// Why something failed a short time ago.
     pub failed: Option<String>,
+    /// The answers to its question, in the order of their numbers.
+    pub answers: Vec<String>,
     /// The actions that the user can ask for.
     pub acts: Vec<ActLine>,
     /// Whether the panel shows nothing of what happened before the end, as in an examination.

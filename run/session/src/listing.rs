@@ -46,8 +46,13 @@ pub fn shown(
     let hint = hint.map(|step| step.hint.clone());
     let failed = failed.map(str::to_owned);
     let acts = acts(&state, hinted, words.texts);
-    match state.mode {
-        Mode::Guided => {
+    let asks = judge
+        .question()
+        .and_then(|(id, _)| of_lesson.step.get(id))
+        .filter(|_| state.mode.tells());
+    let answers = asks.map_or_else(Vec::new, |step| step.answers.clone());
+    match (state.mode, asks) {
+        (Mode::Guided, _) => {
             let number = state.number.unwrap_or(1);
             let step = state.steps.get(number - 1);
             let text = step.and_then(|step| of_lesson.step.get(&step.id));
@@ -56,11 +61,21 @@ pub fn shown(
                 step: words.around.step(number, state.steps.len(), text),
                 hint,
                 failed,
+                answers,
                 acts,
                 ..Shown::default()
             }
         }
-        Mode::Free => {
+        // A question and its answers leave no room for a list.
+        (Mode::Free, Some(question)) => Shown {
+            step: question.text.clone(),
+            hint,
+            failed,
+            answers,
+            acts,
+            ..Shown::default()
+        },
+        (Mode::Free, None) => {
             let said = failed.as_ref().or(hint.as_ref());
             let taken = said.map_or(0, |text| lines(text, words.language));
             let all = listed(lesson, &state, words.language);
@@ -76,7 +91,7 @@ pub fn shown(
             }
         }
         // A user who is examined is told the task, and not its state.
-        Mode::Examination => Shown {
+        (Mode::Examination, _) => Shown {
             step: format!("{title}: {}", of_lesson.summary),
             note: Some(words.texts.steps_in_all(state.steps.len())),
             acts,
@@ -283,6 +298,28 @@ mod tests {
         assert_eq!(state[1].status, Status::Done);
         let listed = listed(judge.lesson(), &judge.state(), Language::En);
         assert_eq!(listed[0].0, Done);
+    }
+
+    /// A question stands alone with its answers, and in `free` the list comes back once it is answered.
+    #[test]
+    fn a_question_is_shown_with_its_answers() {
+        for mode in [Mode::Guided, Mode::Free] {
+            let mut judge = begun("wrong-order", mode);
+            assert!(said(&judge, None).answers.is_empty());
+            judge.skip("dress", 1.0);
+            let shown = said(&judge, None);
+            assert!(shown.step.contains("What will happen?"), "{}", shown.step);
+            assert_eq!((shown.answers.len(), shown.steps.len()), (3, 0));
+            assert_eq!(shown.answers[0], "They mix calmly.");
+            judge.answer("predict", 3, 2.0);
+            let shown = said(&judge, None);
+            assert!(shown.answers.is_empty());
+            assert_eq!(shown.steps.is_empty(), mode == Mode::Guided);
+        }
+        // The end, in which nothing is asked.
+        let mut judge = begun("wrong-order", Mode::Guided);
+        judge.finish(1.0);
+        assert!(said(&judge, None).answers.is_empty());
     }
 
     #[test]

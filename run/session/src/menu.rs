@@ -1,6 +1,7 @@
 //! What can be chosen while a session runs, on the panel and by the computer's keyboard.
 
 use vitriol_lesson::Mode;
+use vitriol_lesson::procedure::MOST_ANSWERS;
 use vitriol_run::Action;
 
 use super::decision::Decision;
@@ -19,6 +20,8 @@ pub const SUMMARY: char = 's';
 pub const HINT: char = 'h';
 /// Key of [`Action::Skip`].
 pub const SKIP: char = 'n';
+/// Keys of [`Action::Answer`], of the first answer and those behind it.
+pub const ANSWERS: [char; MOST_ANSWERS as usize] = ['j', 'k', 'l'];
 /// Key of [`Action::Finish`].
 pub const FINISH: char = 'f';
 /// Key of [`Decision::AskEnd`].
@@ -29,6 +32,10 @@ pub const INVITE: char = 'i';
 /// What a key stands for.
 pub fn decision(key: char) -> Option<Decision> {
     let key = key.to_ascii_lowercase();
+    let mut answers = (1..).zip(ANSWERS);
+    if let Some((answer, _)) = answers.find(|(_, of)| *of == key) {
+        return Some(Decision::Act(Action::Answer { step: None, answer }));
+    }
     match key {
         START => Some(Decision::Act(Action::Start(None))),
         TOGGLE => Some(Decision::Toggle),
@@ -67,6 +74,12 @@ pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
         };
         text += &format!("\n  {key}  {does}");
     }
+    if lesson.is_some_and(Mode::tells) {
+        let [first, second, third] = ANSWERS;
+        text += &format!(
+            "\n  {first} {second} {third}  the answers to a question, where the lesson asks one"
+        );
+    }
     if invites {
         text += &format!("\n  {INVITE}  let a browser into the console");
     }
@@ -93,10 +106,16 @@ mod tests {
         let acts = ['H', 'n', 'f'].map(decision);
         let expected = [Action::Hint(None), Action::Skip(None), Action::Finish];
         assert_eq!(acts, expected.map(|act| Some(Decision::Act(act))));
+        let second = Action::Answer {
+            step: None,
+            answer: 2,
+        };
+        assert_eq!(decision('K'), Some(Decision::Act(second)));
         let keys = [
             START, TOGGLE, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE,
         ];
-        let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
+        let scenes = CHOICES.map(|it| it.key);
+        let mut all: Vec<char> = keys.into_iter().chain(ANSWERS).chain(scenes).collect();
         let count = all.len();
         all.sort_unstable();
         all.dedup();

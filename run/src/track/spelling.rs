@@ -1,6 +1,7 @@
 //! How a track spells actions: as switches, each a key and a value, beside the poses of the step before which they are done.
 
 use thiserror::Error;
+use vitriol_lesson::procedure::MOST_ANSWERS;
 use vitriol_sim::scene::PictureFilter;
 use vitriol_xr::Switch;
 
@@ -35,7 +36,8 @@ pub mod key {
     pub const BOILING: &str = "boiling";
     /// [`Action::Message`](crate::Action::Message).
     pub const MESSAGE: &str = "message";
-    /// [`Action::Hint`](crate::Action::Hint), [`Action::Skip`](crate::Action::Skip), [`Action::Finish`](crate::Action::Finish).
+    /// [`Action::Hint`](crate::Action::Hint), [`Action::Skip`](crate::Action::Skip), [`Action::Answer`](crate::Action::Answer),
+    /// [`Action::Finish`](crate::Action::Finish).
     pub const LESSON: &str = "lesson";
 }
 
@@ -47,6 +49,7 @@ const FOVEATION: [&str; 2] = ["off", "fixed"];
 
 const HINT: &str = "hint ";
 const SKIP: &str = "skip ";
+const ANSWER: &str = "answer ";
 const FINISH: &str = "finish";
 
 /// A track has a switch whose value its key does not take.
@@ -87,6 +90,9 @@ impl Action {
             Self::Message(text) => (key::MESSAGE, text.clone()),
             Self::Hint(step) => (key::LESSON, of(HINT, step)),
             Self::Skip(step) => (key::LESSON, of(SKIP, step)),
+            Self::Answer { step, answer } => {
+                (key::LESSON, format!("{} {answer}", of(ANSWER, step)))
+            }
             Self::Finish => (key::LESSON, FINISH.to_owned()),
         };
         Switch {
@@ -137,9 +143,12 @@ impl Action {
                 let read = match (step(HINT), step(SKIP)) {
                     (Some(step), _) => Some(Self::Hint(Some(step.to_owned()))),
                     (_, Some(step)) => Some(Self::Skip(Some(step.to_owned()))),
-                    _ => (value == FINISH).then_some(Self::Finish),
+                    _ if value == FINISH => Some(Self::Finish),
+                    _ => step(ANSWER).and_then(answered),
                 };
-                let expected = format!("“{HINT}STEP”, “{SKIP}STEP” or “{FINISH}”");
+                let expected = format!(
+                    "“{HINT}STEP”, “{SKIP}STEP”, “{ANSWER}STEP NUMBER” with a number from 1 to {MOST_ANSWERS}, or “{FINISH}”"
+                );
                 (read, expected)
             }
             _ => return Ok(None),
@@ -150,6 +159,17 @@ impl Action {
             expected,
         })
     }
+}
+
+/// The action of a step's id and an answer's number.
+fn answered(text: &str) -> Option<Action> {
+    let (step, answer) = text.rsplit_once(' ')?;
+    let answer = answer.parse().ok()?;
+    let is_one = !step.is_empty() && (1..=MOST_ANSWERS).contains(&answer);
+    is_one.then(|| Action::Answer {
+        step: Some(step.to_owned()),
+        answer,
+    })
 }
 
 #[cfg(test)]
@@ -186,7 +206,8 @@ mod tests {
             Action::Message("Put the flask down: “now”.".into()),
             Action::Message(String::new()),
             Action::Hint(step.clone()),
-            Action::Skip(step),
+            Action::Skip(step.clone()),
+            Action::Answer { step, answer: 3 },
             Action::Finish,
         ] {
             assert_eq!(Action::of(&action.switch()), Ok(Some(action)));
@@ -203,6 +224,14 @@ mod tests {
             (Action::Mute(true), "boiling", "muted"),
             (Action::Foveation(true), "foveation", "fixed"),
             (Action::Skip(Some("pour".into())), "lesson", "skip pour"),
+            (
+                Action::Answer {
+                    step: Some("explain".into()),
+                    answer: 2,
+                },
+                "lesson",
+                "answer explain 2",
+            ),
             (Action::Leap("x".into()), "stage_from_scene", "x"),
         ] {
             assert_eq!(action.switch(), switch(key, value));
@@ -227,6 +256,11 @@ mod tests {
             ("lesson", "skip ", "“skip STEP”"),
             ("lesson", "finish it", "“skip STEP”"),
             ("lesson", "", "“skip STEP”"),
+            ("lesson", "answer explain", "“answer STEP NUMBER”"),
+            ("lesson", "answer  2", "“answer STEP NUMBER”"),
+            ("lesson", "answer explain 0", "from 1 to 3"),
+            ("lesson", "answer explain 4", "from 1 to 3"),
+            ("lesson", "answer explain two", "from 1 to 3"),
         ] {
             let said = Action::of(&switch(key, value)).unwrap_err().to_string();
             assert!(said.contains(words) && said.contains(key), "{said}");

@@ -21,7 +21,9 @@ fn both_ways(seconds: f64, change: impl Fn(&mut Scene)) -> [Boiled; 2] {
         change(&mut scene);
         // In the hand that holds it from the start.
         scene.flasks[0].stage_from_flask.position = Vec3::new(0.034, 0.890, -0.400);
-        let boiled = boil(&device, (&scene, &shaders), &track, seconds, 1).unwrap().0;
+        let boiled = boil(&device, (&scene, &shaders), &track, seconds, 1)
+            .unwrap()
+            .0;
         eprintln!("{name}: {boiled:?}");
         boiled
     })

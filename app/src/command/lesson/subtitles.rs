@@ -155,7 +155,9 @@ fn notes(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Line> {
         Progress::StepFailed {
             why: Why::NotDone, ..
         } => None,
-        Progress::StepFailed { t_s, why, .. } => Some((*t_s, texts.why(why))),
+        Progress::StepFailed { t_s, id, why, .. } => {
+            Some((*t_s, texts.why_of(words.lesson, id, why)))
+        }
         _ => None,
     });
     let mut all: Vec<(f64, String)> = wrong.chain(failed).collect();

@@ -9,7 +9,7 @@ use crate::vr::loss::judged;
 use crate::vr::pour::lesson;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::procedure::{Progress, Verdict, Why};
-use vitriol_lesson::{Language, Mode};
+use vitriol_lesson::{Language, Lesson, Mode};
 use vitriol_run::{Action, Judging};
 use vitriol_session::decision::Decision;
 use vitriol_session::session::{Course, SessionOutcome};
@@ -37,7 +37,7 @@ impl Trouble for Presses {
 fn taught(
     gpu: &Gpu,
     folder: &Path,
-    mode: Mode,
+    (lesson, mode): (&Lesson, Mode),
     frames: u64,
     acts: &[(u64, Action)],
 ) -> (SessionOutcome, Track) {
@@ -47,7 +47,7 @@ fn taught(
     let mut headset = Worn::new(gpu, pour().sample_track(), 30.0, frames, trouble);
     let mut options = options(folder);
     options.course = Some(Course {
-        lesson: lesson(),
+        lesson: lesson.clone(),
         mode,
         language: Language::De,
     });
@@ -59,18 +59,18 @@ fn said_and_replayed(
     gpu: &Gpu,
     outcome: &SessionOutcome,
     track: Track,
-    mode: Mode,
+    (lesson, mode): (&Lesson, Mode),
 ) -> Vec<Progress> {
     let said = track.progress.iter();
     let said: Vec<Progress> = said
         .map(|(_, json)| serde_json::from_str(json).unwrap())
         .collect();
     let scene = track.metadata.scene.clone();
-    let replay = judged(gpu, track, Judging::new(lesson(), mode, &scene));
+    let replay = judged(gpu, track, Judging::new(lesson.clone(), mode, &scene));
     assert_eq!(replay.progress, said);
     assert_eq!(replay.state_hash, hash(outcome));
     let verdict = outcome.verdict.clone().unwrap();
-    assert_eq!(Verdict::retold(&lesson(), mode, &said), [verdict]);
+    assert_eq!(Verdict::retold(lesson, mode, &said), [verdict]);
     said
 }
 
@@ -93,7 +93,7 @@ fn hint_and_skip_are_recorded_and_replay() {
         // It comes with the last frame.
         (39, Action::Skip(None)),
     ];
-    let (outcome, track) = taught(&gpu, folder.path(), Mode::Guided, 41, &acts);
+    let (outcome, track) = taught(&gpu, folder.path(), (&lesson(), Mode::Guided), 41, &acts);
     let step = |id: &str| Some(id.to_owned());
     let expected = [
         Action::Hint(step("lift")),
@@ -104,7 +104,7 @@ fn hint_and_skip_are_recorded_and_replay() {
     let made = &track.metadata.parameters;
     let of_lesson = ["lesson", "lesson_hash", "mode", "language"].map(|key| made[key].as_str());
     assert_eq!(of_lesson, ["water", lesson().hash(), "guided", "de"]);
-    let said = said_and_replayed(&gpu, &outcome, track, Mode::Guided);
+    let said = said_and_replayed(&gpu, &outcome, track, (&lesson(), Mode::Guided));
     let hints = said.iter().filter_map(|it| match it {
         Progress::HintDue { id, asked, t_s } => Some((id.as_str(), *asked, *t_s)),
         _ => None,
@@ -124,6 +124,63 @@ fn hint_and_skip_are_recorded_and_replay() {
     assert_eq!(skipped.collect::<Vec<_>>(), ["lift", "pour"]);
 }
 
+/// A prediction, and an explanation whose first answer is right.
+fn asking() -> Lesson {
+    let text = r#"
+version = 1
+name = "asking"
+scene = "small.toml"
+modes = ["guided"]
+[[step]]
+id = "predict"
+points = 10
+condition = { answered = { answers = 2 } }
+[[step]]
+id = "explain"
+points = 10
+condition = { answered = { answers = 3, right = 1 } }
+[texts.en]
+title = "Asking"
+summary = "Two questions."
+step.predict = { text = "What?", hint = "Say it.", answers = ["This.", "That."] }
+step.explain = { text = "Why?", hint = "Think.", answers = ["So.", "Thus.", "No."] }
+"#;
+    Lesson::parse(text, "asking.toml").unwrap()
+}
+
+#[test]
+fn answers_are_recorded_and_replay() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let answer = |step: Option<&str>, answer| Action::Answer {
+        step: step.map(str::to_owned),
+        answer,
+    };
+    let acts = [
+        // There is no third one yet.
+        (3, answer(None, 3)),
+        (5, answer(None, 2)),
+        (10, answer(None, 3)),
+        // Nothing is asked any more.
+        (15, answer(None, 1)),
+    ];
+    let lesson = asking();
+    let guided = (&lesson, Mode::Guided);
+    let (outcome, track) = taught(&gpu, folder.path(), guided, 20, &acts);
+    let expected = [answer(Some("predict"), 2), answer(Some("explain"), 3)];
+    assert_eq!(asked(&track), expected);
+    let verdict = outcome.verdict.clone().unwrap();
+    let points: Vec<_> = verdict.lines.iter().map(|line| line.points).collect();
+    assert_eq!(points, [10, 0]);
+    let wrong = Why::WrongAnswer {
+        answer: 3,
+        right: 1,
+    };
+    assert_eq!(verdict.lines[1].why, Some(wrong));
+    let said = said_and_replayed(&gpu, &outcome, track, guided);
+    assert!(matches!(said.last(), Some(Progress::Over { .. })));
+}
+
 mod long {
     use super::*;
 
@@ -138,14 +195,20 @@ mod long {
             (40, Action::Skip(None)),
             (204, Action::Finish),
         ];
-        let (outcome, track) = taught(&gpu, folder.path(), Mode::Examination, 215, &acts);
+        let (outcome, track) = taught(
+            &gpu,
+            folder.path(),
+            (&lesson(), Mode::Examination),
+            215,
+            &acts,
+        );
         assert_eq!(asked(&track), [Action::Finish]);
         let verdict = outcome.verdict.clone().unwrap();
         let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
         assert_eq!(met, [true, true, false, false], "{verdict:#?}");
         let put_down = &verdict.lines[3];
         assert_eq!(put_down.why, Some(Why::NotDone));
-        let said = said_and_replayed(&gpu, &outcome, track, Mode::Examination);
+        let said = said_and_replayed(&gpu, &outcome, track, (&lesson(), Mode::Examination));
         assert!(matches!(said.last(), Some(Progress::Over { t_s }) if (6.7..7.0).contains(t_s)));
     }
 }

@@ -12,6 +12,8 @@ use crate::skin::{CORROSIVE, IRRITANT};
 const DEEPEST: usize = 3;
 /// Most parts of an `all` or `any`.
 const MOST_PARTS: usize = 10;
+/// Most answers of a question: as many buttons as the panel has room for, beside the question and a hint.
+pub const MOST_ANSWERS: u8 = 3;
 /// Least volume that a condition may ask for, mL: less is no pour.
 const LEAST_ML: f64 = 0.5;
 /// Greatest volume, mL.
@@ -51,6 +53,8 @@ pub enum Condition {
     Wiped(Wiped),
     /// A stated volume of water came to a hand.
     Rinsed(Rinsed),
+    /// The step's question was answered. It is a step's whole condition, and no part of `all` or `any`.
+    Answered(Answered),
 }
 
 /// The flask of a condition.
@@ -204,6 +208,23 @@ pub struct Rinsed {
     pub hand: HandName,
     /// Least volume of water since the step began, mL.
     pub at_least_ml: f64,
+}
+
+/// Parameters of [`Condition::Answered`]. The step's text is the question; its texts have the answers too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answered {
+    /// How many answers there are.
+    pub answers: u8,
+    /// The right one, counted from 1: with another one the step is missed. Without it each answer completes the step.
+    pub right: Option<u8>,
+}
+
+impl Answered {
+    /// Whether there is an answer of that number, counted from 1.
+    pub fn has(self, answer: u8) -> bool {
+        (1..=self.answers).contains(&answer)
+    }
 }
 
 /// A hand.
@@ -374,6 +395,24 @@ impl Condition {
             Self::Measured(it) => time("for_s", it.for_s),
             Self::Wiped(it) => within(&named("at_most_ml"), it.at_most_ml, 0.0, MOST_ML),
             Self::Rinsed(it) => volume("at_least_ml", it.at_least_ml),
+            Self::Answered(_) if depth > 0 => {
+                let problem = "a question is a part of `all` or `any`; make a step of it";
+                Err(Problem::new(field, problem))
+            }
+            Self::Answered(it) => {
+                let (answers, most) = (f64::from(it.answers), f64::from(MOST_ANSWERS));
+                within(&named("answers"), answers, 1.0, most)?;
+                let right = |right| within(&named("right"), f64::from(right), 1.0, answers);
+                it.right.map_or(Ok(()), right)
+            }
+        }
+    }
+
+    /// The question that it asks, if it asks one.
+    pub(super) fn question(&self) -> Option<Answered> {
+        match self {
+            Self::Answered(it) => Some(*it),
+            _ => None,
         }
     }
 
@@ -394,6 +433,7 @@ impl Condition {
             Self::Measured(_) => "measured",
             Self::Wiped(_) => "wiped",
             Self::Rinsed(_) => "rinsed",
+            Self::Answered(_) => "answered",
         };
         format!("{field}.{name}")
     }

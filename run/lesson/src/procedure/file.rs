@@ -31,11 +31,19 @@ const LONGEST_ID: usize = 40;
 const LONGEST_TIME: f64 = 3600.0;
 
 /// The lessons that come with the program: name and text.
-const BUILTIN: [(&str, &str); 4] = [
+const BUILTIN: [(&str, &str); 6] = [
     ("dilute", include_str!("../../lessons/dilute.toml")),
     (
         "wrong-order",
         include_str!("../../lessons/wrong-order.toml"),
+    ),
+    (
+        "wrong-order-layered",
+        include_str!("../../lessons/wrong-order-layered.toml"),
+    ),
+    (
+        "wrong-order-hot",
+        include_str!("../../lessons/wrong-order-hot.toml"),
     ),
     (
         "examination",
@@ -193,7 +201,12 @@ impl Lesson {
                 }
             }
         }
-        let steps: Vec<&str> = raw.step.iter().map(|step| step.id.as_str()).collect();
+        let steps = raw.step.iter().map(|step| {
+            let question = step.condition.question();
+            let answers = question.map_or(0, |it| usize::from(it.answers));
+            (step.id.as_str(), answers)
+        });
+        let steps: Vec<(&str, usize)> = steps.collect();
         let rules: Vec<&str> = raw.rule.iter().map(|rule| rule.id.as_str()).collect();
         for (language, texts) in &others {
             let checked = texts.check(*language, (&steps, &rules));
@@ -285,6 +298,11 @@ fn check(raw: &LessonFile) -> Result<(), Problem> {
     let modes: BTreeSet<Mode> = raw.modes.iter().copied().collect();
     if modes.is_empty() || modes.len() < raw.modes.len() {
         let problem = "has none, or one twice; take of \"guided\", \"free\", \"examination\" each that it allows, its usual one first";
+        return Err(Problem::new("modes", problem));
+    }
+    let asks = raw.step.iter().any(|it| it.condition.question().is_some());
+    if asks && modes.contains(&Mode::Examination) {
+        let problem = "has \"examination\", in which no step is shown; take it out, or take the lesson's questions out";
         return Err(Problem::new("modes", problem));
     }
     for (name, most) in raw.caps.named() {

@@ -97,6 +97,7 @@ impl Condition {
             }
             Self::Wiped(_) => facts.has(field, facts.cloth, "cloth to wipe with"),
             Self::Rinsed(_) => facts.has(field, facts.rinsing, "water to rinse hands with"),
+            Self::Answered(_) => Ok(()),
         }
     }
 }

@@ -13,9 +13,13 @@
 //! its points, our choice. In an `examination` it is missed. What is poured cannot be taken back, so a step may have become impossible:
 //! starting the scene again begins the lesson again, and [`Procedure::skip`] leaves a step out. A step whose time is up is missed in each
 //! mode.
+//!
+//! A question takes one answer, in each mode. Where no answer is right, each one completes the step. Where one is, the step is missed with
+//! another one: it has no points, its reason names the right answer, and the lesson goes on.
 
 use std::collections::BTreeSet;
 
+use super::condition::Answered;
 use super::file::Lesson;
 use super::keeping::Keeping;
 use super::mode::Mode;
@@ -118,6 +122,32 @@ impl Procedure {
             self.settle(t_s);
         }
         std::mem::take(&mut self.said)
+    }
+
+    /// Takes in an answer, counted from 1, to the question of an open step at `t_s`, s: the step is done, or missed where another answer is
+    /// right. Returns nothing where the step is not open, or has no such answer.
+    pub fn answer(&mut self, id: &str, answer: u8, t_s: f64) -> Vec<Progress> {
+        let question = |at: usize| Some((at, self.lesson.steps[at].condition.question()?));
+        let asked = self.open(id).and_then(question);
+        let Some((at, question)) = asked.filter(|(_, it)| it.has(answer)) else {
+            return Vec::new();
+        };
+        match question.right {
+            Some(right) if right != answer => {
+                let why = Why::WrongAnswer { answer, right };
+                self.fail(at, t_s, (t_s, why), true);
+            }
+            _ => self.steps[at].watch.answer(t_s),
+        }
+        self.settle(t_s);
+        std::mem::take(&mut self.said)
+    }
+
+    /// The first open step that asks a question, by its id, and its question.
+    pub fn question(&self) -> Option<(&str, Answered)> {
+        let pairs = self.lesson.steps.iter().zip(&self.steps);
+        let mut open = pairs.filter(|(_, tried)| tried.status == Status::Open);
+        open.find_map(|(step, _)| Some((step.id.as_str(), step.condition.question()?)))
     }
 
     /// Status of the lesson and of each step.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::Kind;
 use super::mode::Mode;
+use super::words::LessonTexts;
 use crate::texts::Texts;
 
 /// A change in a lesson. `t_s` is when it was reported, `evidence_s` when it came about: a pour is known a second after its last drop.
@@ -150,6 +151,13 @@ pub enum Why {
     TimeUp {
         /// Allowed time, s.
         limit_s: f64,
+    },
+    /// Another answer is right.
+    WrongAnswer {
+        /// The answer that was given, counted from 1.
+        answer: u8,
+        /// The right one.
+        right: u8,
     },
     /// The step was left out.
     Skipped,
@@ -296,8 +304,26 @@ impl Texts {
                 let limit = self.duration(*limit_s);
                 texts.time_up.fill(&[("limit", &limit)])
             }
+            Why::WrongAnswer { answer, right } => texts.wrong_answer.fill(&[
+                ("answer", &answer.to_string()),
+                ("right", &right.to_string()),
+            ]),
             Why::Skipped => texts.skipped.text(),
             Why::NotDone => texts.not_done.text(),
+        }
+    }
+
+    /// As [`Texts::why`] for the lesson's step or rule of that id: of a wrong answer with the text of the right one.
+    pub fn why_of(&self, lesson: &LessonTexts, id: &str, why: &Why) -> String {
+        let said = self.why(why);
+        let Why::WrongAnswer { right, .. } = why else {
+            return said;
+        };
+        let answers = lesson.step.get(id).map(|step| &step.answers);
+        let right = usize::from(*right).checked_sub(1);
+        match answers.and_then(|it| it.get(right?)) {
+            Some(right) => self.join.two.fill(&[("first", &said), ("second", right)]),
+            None => said,
         }
     }
 

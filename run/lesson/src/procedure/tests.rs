@@ -8,6 +8,7 @@ mod fits;
 mod keeping;
 mod modes;
 mod order;
+mod questions;
 mod retold;
 mod spoiled;
 

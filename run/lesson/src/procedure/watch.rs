@@ -104,6 +104,14 @@ impl Watch {
         }
     }
 
+    /// Takes in that the question, which is the whole condition, was answered at `t`, s.
+    pub fn answer(&mut self, t: f64) {
+        self.leaves = vec![Leaf {
+            met: Some(t),
+            ..Leaf::default()
+        }];
+    }
+
     /// When the condition was met, s, if it still holds.
     pub fn met(&self, condition: &Condition) -> Option<f64> {
         met(condition, &mut self.leaves.iter())
@@ -163,8 +171,8 @@ fn sees(
             .is_some_and(|it| it.flask.as_deref() == Some(flask))
     };
     match condition {
-        // `all` and `any` are judged by their parts, and pours by their events.
-        Condition::All(_) | Condition::Any(_) | Condition::Poured(_) => {}
+        // `all` and `any` are judged by their parts, pours by their events, and questions by their answers.
+        Condition::All(_) | Condition::Any(_) | Condition::Poured(_) | Condition::Answered(_) => {}
         Condition::Lifted(it) => {
             let held = sight.flask(&it.flask).is_some_and(|flask| flask.held);
             leaf.lasts(held, t, 0.0);

@@ -11,6 +11,8 @@ use crate::language::Language;
 const TITLE: usize = 60;
 /// Longest text of a step or a rule, and longest hint.
 const STEP: usize = 140;
+/// Longest answer, a button of the panel's width.
+const ANSWER: usize = 50;
 /// Longest summary.
 const SUMMARY: usize = 280;
 
@@ -34,21 +36,25 @@ pub struct LessonTexts {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StepTexts {
-    /// What to do.
+    /// What to do, or the question.
     pub text: String,
     /// How to do it, for a student who does not get on.
     pub hint: String,
+    /// The answers to the question, in the order of their numbers; none where nothing is asked.
+    #[serde(default)]
+    pub answers: Vec<String>,
 }
 
 impl LessonTexts {
-    /// Checks that each of these steps and rules has texts, that no other has, and that each text fits the panel.
+    /// Checks that each of these steps, with so many answers, and rules has texts, that no other has, and that each text fits the panel.
     pub(super) fn check(
         &self,
         language: Language,
-        (steps, rules): (&[&str], &[&str]),
+        (steps, rules): (&[(&str, usize)], &[&str]),
     ) -> Result<(), Problem> {
         let field = format!("texts.{language}");
-        same_keys(&format!("{field}.step"), self.step.keys(), steps)?;
+        let ids: Vec<&str> = steps.iter().map(|(id, _)| *id).collect();
+        same_keys(&format!("{field}.step"), self.step.keys(), &ids)?;
         same_keys(&format!("{field}.rule"), self.rule.keys(), rules)?;
         let fits = |key: &str, text: &str, most: usize| {
             let most = match language {
@@ -62,6 +68,19 @@ impl LessonTexts {
         for (id, step) in &self.step {
             fits(&format!("step.{id}.text"), &step.text, STEP)?;
             fits(&format!("step.{id}.hint"), &step.hint, STEP)?;
+            for (nth, answer) in step.answers.iter().enumerate() {
+                fits(&format!("step.{id}.answers[{nth}]"), answer, ANSWER)?;
+            }
+        }
+        for (id, needed) in steps {
+            let found = self.step.get(*id).map_or(0, |step| step.answers.len());
+            if found != *needed {
+                let problem = format!(
+                    "has {found}, and the step asks for {needed}; give each answer its text"
+                );
+                let field = format!("{field}.step.{id}.answers");
+                return Err(Problem::new(field, problem));
+            }
         }
         for (id, rule) in &self.rule {
             fits(&format!("rule.{id}"), rule, STEP)?;

@@ -2,9 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use egui::{Context, FontId};
-use vitriol_lesson::Language;
+use vitriol_lesson::{Language, Lesson};
 
 use super::PANEL;
+use super::lesson::label;
 use super::view::{BESIDE, scene_text, style};
 use crate::menu::END;
 use vitriol_run::choices::CHOICES;
@@ -88,6 +89,23 @@ fn each_scenes_button_has_its_text_in_two_lines() {
             assert_eq!(text.lines().count(), 2, "{language}: {text:?}");
             let wide = width(&context, &text, SIZE);
             assert!(wide <= room, "{language}: {text:?} {wide} of {room}");
+        }
+    }
+}
+
+/// The answers of each built-in lesson, on buttons of the panel's width.
+#[test]
+fn each_answer_has_a_line() {
+    let context = context();
+    let room = PANEL[0] as f32 - 2.0 * 22.0 - 2.0 * PADDING;
+    for name in Lesson::builtin_names() {
+        let lesson = Lesson::builtin(name).unwrap();
+        for language in Language::ALL {
+            let steps = lesson.texts(language).step.values();
+            for answer in steps.flat_map(|step| &step.answers) {
+                let wide = width(&context, &label('k', answer), SIZE);
+                assert!(wide <= room, "{language}: {answer:?} {wide} of {room}");
+            }
         }
     }
 }

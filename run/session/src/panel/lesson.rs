@@ -1,6 +1,6 @@
 //! A lesson on the panel: what is to be done, and what can be asked for.
 
-use egui::{Align, Color32, Label, Layout, RichText, Ui, vec2};
+use egui::{Align, Button, Color32, Label, Layout, RichText, Ui, vec2};
 use vitriol_run::Action;
 
 use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
@@ -8,8 +8,12 @@ use crate::decision::Decision;
 use crate::info::{Mark, Shown};
 use crate::menu;
 
-/// What is to be done, its steps where they are listed, and why something failed or else how to do it.
-pub fn told(ui: &mut Ui, shown: &Shown) {
+/// Height of an answer's button, pixels: that of the other buttons.
+const BUTTON: f32 = 46.0;
+
+/// What is to be done, its steps where they are listed, why something failed or else how to do it, and the answers to its question.
+/// Returns the answer that was pressed.
+pub fn told(ui: &mut Ui, shown: &Shown) -> Option<Decision> {
     ui.label(RichText::new(&shown.step).color(WHITE));
     for (mark, text) in &shown.steps {
         ui.horizontal_top(|ui| step(ui, *mark, text));
@@ -19,6 +23,26 @@ pub fn told(ui: &mut Ui, shown: &Shown) {
     for (line, colour) in note.chain(more.map(|line| (line, WARNING))) {
         ui.label(RichText::new(line).color(colour));
     }
+    let mut pressed = None;
+    for (answer, text, key) in answers(shown) {
+        let size = vec2(ui.available_width(), BUTTON);
+        let button = Button::new(label(key, text)).min_size(size);
+        if ui.add(button).clicked() {
+            pressed = Some(Decision::Act(Action::Answer { step: None, answer }));
+        }
+    }
+    pressed
+}
+
+/// The answers that can be given: number, text and key.
+fn answers(shown: &Shown) -> impl Iterator<Item = (u8, &str, char)> {
+    let numbered = (1..).zip(&shown.answers).zip(menu::ANSWERS);
+    numbered.map(|((answer, text), key)| (answer, text.as_str(), key))
+}
+
+/// A button's text: its key, and what it does.
+pub fn label(key: char, text: &str) -> String {
+    format!("{}   {text}", key.to_ascii_uppercase())
 }
 
 fn step(ui: &mut Ui, mark: Mark, text: &str) {
@@ -45,8 +69,11 @@ pub fn asks(shown: &Shown) -> impl Iterator<Item = (String, bool, Decision)> {
             Action::Skip(_) => menu::SKIP,
             _ => menu::FINISH,
         };
-        let text = format!("{}   {}", key.to_ascii_uppercase(), line.text);
-        (text, line.on, Decision::Act(line.act.clone()))
+        (
+            label(key, &line.text),
+            line.on,
+            Decision::Act(line.act.clone()),
+        )
     })
 }
 
@@ -145,7 +172,26 @@ mod tests {
                 act(Action::Skip(None), texts.skip_step()),
                 act(Action::Finish, texts.finish_lesson()),
             ],
+            answers: Vec::new(),
             quiet: false,
+        }
+    }
+
+    /// The longest question in a language: three lines with its number, three answers, and a hint, as a guided lesson shows it.
+    fn asking(language: Language) -> Shown {
+        let longest = longest(language);
+        let hint = longest.hint.clone().unwrap();
+        let answer = |at: usize| -> String {
+            let most = if language == Language::Zh { 25 } else { 50 };
+            hint.chars().skip(at).take(most).collect()
+        };
+        Shown {
+            step: hint.chars().rev().collect(),
+            steps: Vec::new(),
+            note: None,
+            answers: [0, 1, 2].map(answer).to_vec(),
+            acts: longest.acts[..2].to_vec(),
+            ..longest
         }
     }
 
@@ -154,8 +200,8 @@ mod tests {
     fn a_lesson_fits_the_panel_in_each_language() {
         let [width, height] = PANEL.map(|side| side as f32);
         let inside = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height)).shrink(MARGIN);
-        for language in Language::ALL {
-            let shown = longest(language);
+        let all = Language::ALL.into_iter();
+        for (language, shown) in all.flat_map(|it| [(it, longest(it)), (it, asking(it))]) {
             let found = texts(&with(shown.clone()));
             let place = |part: &str| {
                 let at = found.iter().find(|(text, _)| text.contains(part));
@@ -169,7 +215,14 @@ mod tests {
                     "{language}: {text} {rect:?}"
                 );
             }
-            let lowest = place(shown.hint.as_ref().unwrap()).bottom();
+            let mut lowest = place(shown.hint.as_ref().unwrap()).bottom();
+            // Each answer is a line, one below the other.
+            for (_, text, key) in answers(&shown) {
+                let button = place(&label(key, text));
+                assert!(button.top() > lowest, "{language}: {text}");
+                assert!(button.height() < 46.0, "{language}: {text}");
+                lowest = button.bottom();
+            }
             for act in &shown.acts {
                 let button = place(&act.text);
                 assert!(button.top() > lowest, "{language}: {}", act.text);

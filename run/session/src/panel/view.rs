@@ -75,7 +75,7 @@ pub fn show(
     ring: Option<f32>,
 ) -> Seen {
     let mut seen = Seen::default();
-    told(context, info);
+    told(context, info, &mut seen);
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         match &info.happened {
@@ -106,7 +106,7 @@ pub fn show(
 }
 
 /// The instructor's message and actions, or else the lesson, over all else: both together would leave no room for the buttons.
-fn told(context: &Context, info: &Info) {
+fn told(context: &Context, info: &Info, seen: &mut Seen) {
     let told = &info.told;
     let shown = info.lesson.as_ref().filter(|_| told.message.is_none());
     let said: Vec<&String> = told.message.iter().chain(&told.done).collect();
@@ -118,7 +118,7 @@ fn told(context: &Context, info: &Info) {
     let strip = TopBottomPanel::top("told").frame(frame);
     strip.show_separator_line(false).show(context, |ui| {
         if let Some(shown) = shown {
-            lesson::told(ui, shown);
+            seen.clicked = lesson::told(ui, shown);
         }
         for line in said {
             ui.label(RichText::new(line).color(WHITE));

@@ -54,12 +54,14 @@ impl Guide {
         })
     }
 
-    /// The action that the user asks for in the run's scene, with the id of the step whose hint is given or that is skipped. `None` where
-    /// there is no lesson in this scene, it is over, its mode does not offer that action, or it has no such step.
+    /// The action that the user asks for in the run's scene, with the id of the step whose hint is given, that is skipped or answered.
+    /// `None` where there is no lesson in this scene, it is over, its mode does not offer that action, or it has no such step or answer.
     pub fn named(&self, run: &Run, action: Action) -> Option<Action> {
         let (course, judging) = self.of(run)?;
         let state = judging.procedure().state();
-        if state.over || !listing::can_ask(course.mode).contains(&action) {
+        let is_answer = matches!(action, Action::Answer { .. });
+        let is_offered = is_answer || listing::can_ask(course.mode).contains(&action);
+        if state.over || !is_offered {
             return None;
         }
         Some(match action {
@@ -70,6 +72,13 @@ impl Guide {
             Action::Skip(_) => {
                 let open = state.steps.get(state.number? - 1)?;
                 Action::Skip(Some(open.id.clone()))
+            }
+            Action::Answer { answer, .. } => {
+                let (id, question) = judging.procedure().question()?;
+                question.has(answer).then(|| Action::Answer {
+                    step: Some(id.to_owned()),
+                    answer,
+                })?
             }
             action => action,
         })
@@ -95,8 +104,9 @@ impl Guide {
                     }
                     self.hinted = Some(id.clone());
                 }
-                Progress::StepFailed { t_s, why, .. } | Progress::RuleBroken { t_s, why, .. } => {
-                    self.failed = Some((*t_s, self.texts.why(why)));
+                Progress::StepFailed { t_s, id, why, .. }
+                | Progress::RuleBroken { t_s, id, why, .. } => {
+                    self.failed = Some((*t_s, self.texts.why_of(texts, id, why)));
                 }
                 Progress::StepBegun { .. } | Progress::StepDone { .. } | Progress::Over { .. } => {}
             }

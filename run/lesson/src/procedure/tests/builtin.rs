@@ -13,7 +13,14 @@ fn facts(scene: &str) -> SceneFacts {
 fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     assert_eq!(
         Lesson::builtin_names(),
-        ["dilute", "wrong-order", "examination", "emergency"]
+        [
+            "dilute",
+            "wrong-order",
+            "wrong-order-layered",
+            "wrong-order-hot",
+            "examination",
+            "emergency"
+        ]
     );
     for name in Lesson::builtin_names() {
         let lesson = Lesson::builtin(name).unwrap();
@@ -45,7 +52,7 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     }
     let error = Lesson::builtin("bake").unwrap_err().to_string();
     assert!(
-        error.contains("dilute, wrong-order, examination, emergency"),
+        error.contains("dilute, wrong-order, wrong-order-layered, wrong-order-hot, examination"),
         "{error}"
     );
 }
@@ -107,6 +114,8 @@ fn each_text_fits_the_panel() {
                     long(&step.text) <= 140 && long(&step.hint) <= 140,
                     "{step:?}"
                 );
+                let answers = step.answers.iter();
+                assert!(answers.map(|it| long(it)).all(|long| long <= 50));
             }
             assert!(texts.rule.values().all(|it| long(it) <= 140));
         }
@@ -148,7 +157,7 @@ fn texts_say_what_is_judged() {
         assert!(ml + 160.0 > holds.at_least_ml);
     }
     let wrong = of("wrong-order");
-    let Condition::Poured(poured) = &wrong.steps[2].condition else {
+    let Condition::Poured(poured) = &wrong.steps[3].condition else {
         panic!()
     };
     let texts = wrong.texts(Language::En);
@@ -157,6 +166,35 @@ fn texts_say_what_is_judged() {
             .text
             .contains(&format!("{}\u{a0}mL", poured.at_least_ml))
     );
+    let layered = of("wrong-order-layered");
+    let Condition::Temperature(swirled) = &layered.steps[3].condition else {
+        panic!()
+    };
+    let least = format!("{}\u{a0}°C", swirled.at_least_c.unwrap());
+    assert!(
+        layered.texts(Language::En).step["swirl"]
+            .text
+            .contains(&least)
+    );
+}
+
+/// Each lesson of the wrong order names the next, in each language: the cold one, the layers, the hot one, the right order.
+#[test]
+fn the_lessons_of_the_wrong_order_name_the_next() {
+    let course = [
+        "wrong-order",
+        "wrong-order-layered",
+        "wrong-order-hot",
+        "dilute",
+    ];
+    for pair in course.windows(2) {
+        let lesson = Lesson::builtin(pair[0]).unwrap();
+        let last = &lesson.steps[lesson.steps.len() - 1].id;
+        for language in Language::ALL {
+            let text = &lesson.texts(language).step[last].text;
+            assert!(text.contains(pair[1]), "{language}: {text}");
+        }
+    }
 }
 
 /// The correct dilution, from its first observation to its points.
@@ -227,6 +265,7 @@ fn the_wrong_order_is_seen_to_warm() {
         sight
     };
     procedure.advance(&at(0.0, false, 20.0), &[]);
+    procedure.answer("predict", 1, 0.0);
     procedure.advance(&at(1.0, true, 20.0), &[]);
     let Event::Poured(pour) = pour([2.0, 8.0], 12.0, 4.5, 0.0) else {
         panic!()
@@ -239,7 +278,15 @@ fn the_wrong_order_is_seen_to_warm() {
     procedure.advance(&at(9.0, true, 45.0), &[Event::Poured(poured)]);
     procedure.advance(&at(10.0, false, 45.0), &[]);
     procedure.advance(&at(11.0, false, 45.0), &[]);
+    // What was predicted costs nothing; the wrong explanation costs its 15 points, and the rule's 5 are a share of the steps'.
+    let mut other = procedure.clone();
+    for (judge, explained) in [(&mut procedure, 2), (&mut other, 1)] {
+        judge.answer("explain", explained, 12.0);
+        judge.answer("look", 3, 13.0);
+        assert!(judge.state().over);
+    }
     assert_eq!(procedure.verdict().points, 100);
+    assert_eq!(other.verdict().points, 80 + 4);
 }
 
 /// Acid is rinsed off the glove, then off the hand; water over a gloved hand does not count for the bare one.
