@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 17] = [
+pub(super) const BUILTIN: [(&str, &str); 18] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -38,6 +38,10 @@ pub(super) const BUILTIN: [(&str, &str); 17] = [
     (
         "layer-and-swirl-right",
         include_str!("../../scenes/layer-and-swirl-right.toml"),
+    ),
+    (
+        "rinse-the-bottle",
+        include_str!("../../scenes/rinse-the-bottle.toml"),
     ),
     (
         "boiling-water",

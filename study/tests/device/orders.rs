@@ -73,7 +73,7 @@ mod long {
     }
 
     /// Layers that a hand swirls on a circle: water on acid boils and throws drops, acid under water warms and throws none. 4 s, as the
-    /// last turn ends at 3.5 s. Of three seeds on two cores steam was TODO mg and TODO mg (`docs/measurements/bubbles.md`).
+    /// last turn ends at 3.5 s. Three seeds throw 29 to 146 mg with 117 to 120 mg of steam, and nothing (`docs/measurements/bubbles.md`).
     #[test]
     fn layers_that_are_swirled_boil_in_the_wrong_order_alone() {
         let device = gpu::device();

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 10] = [
+pub const NAMES: [&str; 11] = [
     "two-flasks",
     "dilute",
     "shake",
@@ -17,6 +17,7 @@ pub const NAMES: [&str; 10] = [
     "emergency",
     "examination",
     "layer-and-swirl",
+    "rinse-the-bottle",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -32,6 +33,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "emergency" => Some(include_str!("../../tracks/emergency.toml")),
         "examination" => Some(include_str!("../../tracks/examination.toml")),
         "layer-and-swirl" => Some(include_str!("../../tracks/layer-and-swirl.toml")),
+        "rinse-the-bottle" => Some(include_str!("../../tracks/rinse-the-bottle.toml")),
         _ => None,
     }
 }

@@ -342,9 +342,11 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     let key = |key: char| key.to_ascii_uppercase();
     let start = format!("{}   {}", key(menu::START), words.start);
     button(ui, (start, LOW), false, Decision::Act(Action::Start(None)));
-    if !scenes.is_empty() && choices::counterpart(&info.scene).is_some() {
+    if !scenes.is_empty() {
+        // Always in its place, so that the others stay in theirs.
         let other = format!("{}   {}", key(menu::TOGGLE), words.other_order);
-        button(ui, (other, LOW), false, Decision::Toggle);
+        let on = choices::counterpart(&info.scene).is_some();
+        ui.add_enabled_ui(on, |ui| button(ui, (other, LOW), false, Decision::Toggle));
     }
     ui.add_space(10.0);
     let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
