@@ -219,12 +219,7 @@ impl Camera {
     /// # Errors
     /// An error of the device.
     pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
-        let gpu = world.gpu();
-        let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        self.record(&mut rec, world, colour)?;
-        let picture = self.renderer.read_back(&mut rec).other()?;
-        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
-        let mut picture = picture.side_by_side().other()?;
+        let mut picture = self.shoot_bare(world, colour)?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
         if colour != Colour::Liquid {
             if let Some(legend) = Legend::of(self.colour_by(world, colour)) {
@@ -234,6 +229,19 @@ impl Camera {
             draw_tints(&mut picture, width);
         }
         Ok(picture)
+    }
+
+    /// The same without a legend.
+    ///
+    /// # Errors
+    /// An error of the device.
+    pub fn shoot_bare(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
+        let gpu = world.gpu();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        self.record(&mut rec, world, colour)?;
+        let picture = self.renderer.read_back(&mut rec).other()?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+        picture.side_by_side().other()
     }
 
     /// Records the picture of the world as it is after what was recorded

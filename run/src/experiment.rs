@@ -40,6 +40,11 @@ pub trait Experiment {
     /// An error of the device.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
 
+    /// What the state now is worth to a film.
+    fn worth(&self) -> Worth {
+        Worth::default()
+    }
+
     /// The sounds since the last call, and the place where they are heard; nothing where no pictures were asked for. Waits for the
     /// device.
     ///
@@ -67,6 +72,24 @@ pub trait Experiment {
     /// # Errors
     /// An error of the device while the final state is read.
     fn outcome(&mut self) -> Result<Outcome, Failure>;
+}
+
+/// What a state is worth to a film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worth {
+    /// Whether something happens, so that it is not left out.
+    pub shown: bool,
+    /// How much there is to see: gas in the liquid and liquid that was spilt, real m³. The film's poster has the most.
+    pub interest: f64,
+}
+
+impl Default for Worth {
+    fn default() -> Self {
+        Self {
+            shown: true,
+            interest: 0.0,
+        }
+    }
 }
 
 /// The state of a run while it goes on, for those who watch.

@@ -16,8 +16,10 @@ use vitriol_xr::{Pose, PoseFrame, Switch};
 use crate::action::Action;
 use crate::camera::{Camera, Colour, Look, Shot};
 use crate::device;
-use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
+use crate::director::Director;
+use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken, Worth};
 use crate::failure::{Blame, Failure, blame_world};
+use crate::inset::Inset;
 use crate::judging::Judging;
 use crate::run::Run;
 use crate::sample::{MassByPlace, Sample};
@@ -58,6 +60,8 @@ pub struct Setup<'a> {
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
+    /// Whether a [director](crate::director) leads the camera, and leaves out what shows nothing.
+    pub directed: bool,
     /// Where a fixed camera is; `None` for the tripod.
     pub look: Option<Look>,
     /// The shaders; where it watches a folder, what changes there is reloaded
@@ -88,6 +92,7 @@ impl<'a> Setup<'a> {
             tint: None,
             room: None,
             head: None,
+            directed: false,
             look: None,
             shaders: Arc::new(Library::embedded()),
         }
@@ -132,6 +137,11 @@ fn camera(
     shot.map(of_world).transpose()
 }
 
+/// The director of a scene's film, where one was asked for.
+fn director(asked: bool, scene: &Scene) -> Option<Director> {
+    asked.then(|| Director::of(scene)).flatten()
+}
+
 /// A run and its picture on a device.
 pub struct Laboratory {
     run: Run,
@@ -143,6 +153,9 @@ pub struct Laboratory {
     /// The scene's name where a switch brought it up.
     switched: Option<String>,
     follows_head: bool,
+    directed: bool,
+    director: Option<Director>,
+    inset: Option<Inset>,
     seed: u64,
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
@@ -192,6 +205,9 @@ impl Laboratory {
             scenes: setup.scenes.clone(),
             switched: None,
             follows_head: setup.head.is_some(),
+            directed: setup.directed,
+            director: director(setup.directed, setup.scene),
+            inset: None,
             seed: setup.seed,
             shaders: setup.shaders.clone(),
             lost: 0,
@@ -272,6 +288,8 @@ impl Laboratory {
         let world = World::new(gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
         self.run.bring_up(action, world);
         self.film = camera(&self.run.world, &self.shaders, self.shot, &self.colours)?;
+        self.director = director(self.directed, &scene);
+        self.inset = None;
         (self.departures, self.start) = (Departures::default(), None);
         self.switched = Some(name.to_owned());
         Ok(())
@@ -282,6 +300,31 @@ impl Laboratory {
         while self.run.wait(newest)?.is_some() {}
         if let Some(camera) = &mut self.film {
             camera.show_temperature(self.run.thermometer());
+        }
+        Ok(())
+    }
+
+    /// Has the director place the camera, and the first second of boiling kept for its inset.
+    fn direct(&mut self, frame_time: f64) -> Result<(), Failure> {
+        let (Some(director), Some(camera)) = (&mut self.director, &mut self.film) else {
+            return Ok(());
+        };
+        let world = &self.run.world;
+        let events = self.run.events();
+        director.observe(world, (self.run.seen(), events), frame_time);
+        let [width, height] = camera.renderer.extent();
+        camera.view = director.view(world.scene(), width as f32 / height as f32);
+        let wanted = self.colours.first() == Some(&Colour::Liquid) && Inset::fits([width, height]);
+        let (Some((from, flask)), true, Some(shot)) = (director.boils(), wanted, self.shot) else {
+            return Ok(());
+        };
+        if self.inset.is_none() {
+            let place = (flask, self.run.seen().flasks[flask].volume);
+            let inset = Inset::of(world, &self.shaders, shot, place, from)?;
+            self.inset = Some(inset);
+        }
+        if let Some(inset) = &mut self.inset {
+            inset.take(world, director.time())?;
         }
         Ok(())
     }
@@ -316,6 +359,7 @@ impl Experiment for Laboratory {
             drop(self.run.sounds());
         }
         self.collect(MOST_LOOKS)?;
+        self.direct(frame_time)?;
         Ok(Taken { frame_time, anew })
     }
 
@@ -355,8 +399,22 @@ impl Experiment for Laboratory {
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
         if let (Some(camera), Some(&colour)) = (&self.film, self.colours.get(film)) {
             self.picture = camera.shoot(&self.run.world, colour)?;
+            if let (0, Some(inset), Some(director)) = (film, &self.inset, &self.director) {
+                let width = camera.renderer.extent()[0] as usize;
+                inset.lay(&mut self.picture, width, director.time());
+            }
         }
         Ok(&self.picture)
+    }
+
+    fn worth(&self) -> Worth {
+        let seen = self.run.seen();
+        let real = self.run.world.scene().scale.length_scale.powi(3);
+        let gas: f64 = seen.flasks.iter().map(|held| held.bubbles.volume).sum();
+        Worth {
+            shown: self.director.as_ref().is_none_or(Director::shows),
+            interest: real * gas + seen.spilt.iter().sum::<f64>(),
+        }
     }
 
     fn heard(&mut self) -> Result<Heard, Failure> {

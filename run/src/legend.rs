@@ -17,7 +17,7 @@ const WHITENESS: u32 = 215;
 /// Text and ticks, sRGB grey.
 const INK: u32 = 30;
 
-const SIZE: RasterHeight = RasterHeight::Size16;
+pub(crate) const SIZE: RasterHeight = RasterHeight::Size16;
 
 /// The scale of an attribute.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,12 +136,17 @@ fn tick_step(range: f32) -> f32 {
     fits.unwrap_or(1000.0)
 }
 
-struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     picture: &'a mut [u8],
     width: usize,
 }
 
 impl<'a> Canvas<'a> {
+    /// Rows of `width` pixels from the top, RGBA.
+    pub(crate) fn of(picture: &'a mut [u8], width: usize) -> Self {
+        Self { picture, width }
+    }
+
     /// With the white that a legend stands on, in the upper left corner, where it has room.
     fn with_panel(picture: &'a mut [u8], width: usize, panel: [usize; 2]) -> Option<Self> {
         let height = picture.len() / 4 / width.max(1);
@@ -149,16 +154,21 @@ impl<'a> Canvas<'a> {
             return None;
         }
         let mut canvas = Self { picture, width };
-        for y in 0..panel[1] {
-            for x in 0..panel[0] {
-                canvas.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
-            }
-        }
+        canvas.whiten([MARGIN; 2], panel);
         Some(canvas)
     }
 
+    /// Lays white over a rectangle of that corner and size, pixels, so that text on it can be read.
+    pub(crate) fn whiten(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2]) {
+        for y in top..top + height {
+            for x in left..left + width {
+                self.blend(x, y, [255; 3], WHITENESS);
+            }
+        }
+    }
+
     /// Lays `colour` over a pixel; `alpha` is 0 to 255.
-    fn blend(&mut self, x: usize, y: usize, colour: [u32; 3], alpha: u32) {
+    pub(crate) fn blend(&mut self, x: usize, y: usize, colour: [u32; 3], alpha: u32) {
         let first = 4 * (y * self.width + x);
         let Some(pixel) = self.picture.get_mut(first..first + 3) else {
             return;
@@ -169,7 +179,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    fn write(&mut self, x: usize, y: usize, text: &str) {
+    pub(crate) fn write(&mut self, x: usize, y: usize, text: &str) {
         let advance = get_raster_width(FontWeight::Regular, SIZE);
         for (index, letter) in text.chars().enumerate() {
             // The font has all letters that titles and numbers are made of.

@@ -1,9 +1,11 @@
 //! What is kept of a run while it goes on: film, samples and progress.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::clock::{SimulatedTime, Span};
+use crate::cutting::{Cut, Cutting, FilmFrame};
 use crate::experiment::{Experiment, Heard};
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
@@ -27,9 +29,16 @@ const SAMPLES_PER_SECOND: f64 = 10.0;
 pub struct Observer {
     span: Span,
     films: Vec<Film>,
+    /// Frames whose time has come.
     film_frames: u64,
     /// The films' sound, as far as their last frame.
     mixer: Mixer,
+    /// The last frames, whose sound has yet to come.
+    newest: VecDeque<FilmFrame>,
+    cutting: Cutting,
+    /// The last picture of each film.
+    last: Vec<Vec<u8>>,
+    poster: Option<(f64, Vec<u8>)>,
     samples: Vec<Sample>,
     /// Number of the last sample's time.
     sampled: Option<u64>,
@@ -46,6 +55,10 @@ pub struct Observations {
     pub films: Vec<PathBuf>,
     /// Frames in each.
     pub film_frames: u64,
+    /// Where they go on at another simulated time; the first one is their begin. Empty without films.
+    pub cuts: Vec<Cut>,
+    /// The first film's picture of the moment that is most [worth](Worth) it, of size [`FILM_SIZE`]; `None` without films.
+    pub poster: Option<Vec<u8>>,
     /// Samples over time; the first is of the start, or of the first step after
     /// the last switch to a scene; the last is of the end.
     pub samples: Vec<Sample>,
@@ -65,6 +78,10 @@ impl Observer {
             films,
             film_frames: 0,
             mixer: Mixer::new(0),
+            newest: VecDeque::new(),
+            cutting: Cutting::default(),
+            last: Vec::new(),
+            poster: None,
             samples: Vec::new(),
             sampled: None,
             scenes_before: 0,
@@ -87,12 +104,22 @@ impl Observer {
     /// # Errors
     /// An error of a film.
     pub fn finish_with(mut self, texts: &[Subtitles]) -> Result<Observations, Failure> {
-        self.sound(self.film_frames)?;
+        if !self.films.is_empty() {
+            self.sound();
+            let mut shots: Vec<FilmFrame> = Vec::new();
+            for shot in std::mem::take(&mut self.newest) {
+                shots.extend(self.cutting.push(shot, FILM_FPS));
+            }
+            shots.extend(self.cutting.rest(FILM_FPS));
+            self.show(shots)?;
+        }
         let films = self.films.into_iter().map(|film| film.finish_with(texts));
         let films: Result<_, _> = films.collect();
         Ok(Observations {
             films: films.other()?,
-            film_frames: self.film_frames,
+            film_frames: self.cutting.shown(),
+            cuts: self.cutting.cuts(),
+            poster: self.poster.map(|(_, picture)| picture),
             samples: self.samples,
             scenes_before: self.scenes_before,
             time: self.time,
@@ -100,14 +127,68 @@ impl Observer {
         })
     }
 
-    /// Gives the films sound as long as so many frames.
-    fn sound(&mut self, frames: u64) -> Result<(), Failure> {
-        let until = frames * u64::from(RATE / FILM_FPS);
-        let done = (self.mixer.time() * f64::from(RATE)).round() as u64;
-        let mut samples = vec![[0.0; 2]; until.saturating_sub(done) as usize];
-        self.mixer.render(&mut samples);
-        for film in &mut self.films {
-            film.push_sound(&samples).other()?;
+    /// Gives the frames that have none their sound.
+    fn sound(&mut self) {
+        for shot in &mut self.newest {
+            shot.sound.resize((RATE / FILM_FPS) as usize, [0.0; 2]);
+            self.mixer.render(&mut shot.sound);
+        }
+    }
+
+    /// Takes frames up to number `due` of the state now.
+    fn take<E: Experiment + ?Sized>(
+        &mut self,
+        due: u64,
+        experiment: &mut E,
+    ) -> Result<(), Failure> {
+        let worth = experiment.worth();
+        let mut pictures = Vec::with_capacity(self.films.len());
+        for index in 0..self.films.len() {
+            pictures.push(experiment.picture(index)?.to_vec());
+        }
+        // The newest frame shows what happened up to now: what happened since the one before it sounds between the two.
+        let Heard { listener, events } = experiment.heard()?;
+        self.mixer.listen(listener);
+        events.into_iter().for_each(|event| self.mixer.push(event));
+        let frames = self.film_frames..due;
+        let repeated = frames.clone().count() - 1;
+        let mut shots = frames.map(|number| FilmFrame {
+            number,
+            pictures: std::mem::take(&mut pictures),
+            shown: worth.shown,
+            sound: Vec::new(),
+        });
+        // All but the newest sound now: a step that is longer than a film frame has several, and the film keeps real time.
+        self.newest.extend(shots.by_ref().take(repeated));
+        self.sound();
+        let sounded = std::mem::take(&mut self.newest);
+        self.newest.extend(shots);
+        self.film_frames = due;
+        for shot in sounded {
+            let shots = self.cutting.push(shot, FILM_FPS);
+            self.show(shots)?;
+        }
+        if self
+            .poster
+            .as_ref()
+            .is_none_or(|(most, _)| worth.interest >= *most)
+            && let Some(picture) = self.newest.iter().find_map(|shot| shot.pictures.first())
+        {
+            self.poster = Some((worth.interest, picture.clone()));
+        }
+        Ok(())
+    }
+
+    /// Gives the films these frames.
+    fn show(&mut self, shots: Vec<FilmFrame>) -> Result<(), Failure> {
+        for shot in shots {
+            if !shot.pictures.is_empty() {
+                self.last = shot.pictures;
+            }
+            for (film, picture) in self.films.iter_mut().zip(&self.last) {
+                film.push_rgba(picture).other()?;
+                film.push_sound(&shot.sound).other()?;
+            }
         }
         Ok(())
     }
@@ -132,23 +213,8 @@ impl<E: Experiment + ?Sized> Watch<E> for Observer {
         let time = &moment.time;
         self.time = *time;
         let due = self.film_frames_due(time);
-        if due > self.film_frames {
-            for (index, film) in self.films.iter_mut().enumerate() {
-                let picture = experiment.picture(index)?;
-                // More than one where a step is longer than a film frame: the
-                // film keeps real time.
-                for _ in self.film_frames..due {
-                    film.push_rgba(picture).other()?;
-                }
-            }
-            self.film_frames = due;
-            if !self.films.is_empty() {
-                // The newest frame shows what happened up to now: what happened since the one before it sounds between the two.
-                let Heard { listener, events } = experiment.heard()?;
-                self.mixer.listen(listener);
-                events.into_iter().for_each(|event| self.mixer.push(event));
-                self.sound(due - 1)?;
-            }
+        if due > self.film_frames && !self.films.is_empty() {
+            self.take(due, experiment)?;
         }
         if sample_is_due(&mut self.sampled, time) || self.span.is_over(time) {
             self.samples.push(experiment.sample(time.seconds())?);

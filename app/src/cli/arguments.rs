@@ -19,8 +19,11 @@ use vitriol_live::ConsoleArgs;
 /// Where a film is seen from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum CameraName {
-    /// A tripod before the bench
+    /// A director: wide for the grip, close where liquid meets liquid or boils, with an inset in slow motion; idle moments
+    /// are left out
     #[default]
+    Director,
+    /// A tripod before the bench
     Fixed,
     /// The track's head, as the user saw it
     Head,

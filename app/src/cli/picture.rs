@@ -44,7 +44,7 @@ pub struct PictureArgs {
     #[arg(long)]
     pub stereo: bool,
     /// Where it is seen from
-    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    #[arg(long, value_enum, default_value_t = CameraName::Fixed, value_name = "CAMERA")]
     pub camera: CameraName,
     /// See it from here instead, m in the stage: +X to the right, +Y up, +Z towards the user
     #[arg(long, value_name = "X,Y,Z", value_parser = place, requires = "target", conflicts_with = "camera", allow_hyphen_values = true)]

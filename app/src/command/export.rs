@@ -179,6 +179,7 @@ fn simulated(
             tint: None,
             room: None,
             head: None,
+            directed: false,
             look: None,
             shaders: Arc::new(Library::watching()),
         },

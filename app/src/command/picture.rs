@@ -11,7 +11,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
 
-use crate::cli::PictureArgs;
+use crate::cli::{CameraName, PictureArgs};
 use crate::command::plan::{Ask, ReplayPlan};
 use crate::command::recorded::head;
 
@@ -88,6 +88,7 @@ pub fn run(
         tint: args.drawn.tint,
         room: args.drawn.room,
         head: head(args.camera, &args.track, &track)?,
+        directed: args.camera == CameraName::Director && args.eye.is_none(),
         look: args.look(),
         shaders: Arc::new(Library::watching()),
     })?;

@@ -184,7 +184,7 @@ pub fn actions(track: &Track) -> impl Iterator<Item = Action> {
 /// Where the head is at the start, if the film is to show what it sees.
 pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose>, Failure> {
     match (camera, track.frames.first()) {
-        (CameraName::Fixed, _) => Ok(None),
+        (CameraName::Fixed | CameraName::Director, _) => Ok(None),
         (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),
         (CameraName::Head, None) => Err(format!(
             "--camera head: {name} holds no pose of a head; take --camera fixed"

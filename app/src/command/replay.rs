@@ -12,7 +12,8 @@ use serde::Serialize;
 use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Event, Score, Texts, incidents_csv};
 use vitriol_run::output::{
-    FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, REPORT_HTML, REPORT_JSON,
+    self, ColorType, FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, POSTER, REPORT_HTML,
+    REPORT_JSON,
 };
 use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, STATE_HASH};
@@ -25,7 +26,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{TrackMetadata, TrackSource};
 
-use crate::cli::ReplayArgs;
+use crate::cli::{CameraName, ReplayArgs};
 use crate::command::capped;
 use crate::command::course::{self, AskedLesson};
 #[cfg(feature = "class")]
@@ -179,6 +180,7 @@ fn replay(
         tint: args.drawn.tint,
         room: args.drawn.room,
         head,
+        directed: args.camera == CameraName::Director,
         look: None,
         shaders: Arc::new(Library::watching()),
     })?;
@@ -209,7 +211,8 @@ fn replay(
         span,
         &mut observer,
     )?;
-    let observations = observer.finish()?;
+    let mut observations = observer.finish()?;
+    let poster = observations.poster.take();
     for film in &observations.films {
         out.adopt(film.clone());
     }
@@ -231,12 +234,16 @@ fn replay(
         seed,
         (&scene_name, &scene),
         outcome,
-        observations,
+        (observations, poster.is_some()),
     )?;
     report.recording = recording;
     report.lesson = retold.unwrap_or_default();
     let texts = Texts::english().other()?;
     report.judge(&rubric, &texts);
+    if let Some(picture) = poster {
+        let file = output::png(&picture, FILM_SIZE, ColorType::Rgba)?;
+        out.write(POSTER, &file)?;
+    }
     // The page first and the numbers last: a folder with `report.json` is a whole run.
     out.write(REPORT_HTML, report.to_html(&texts).as_bytes())?;
     let incidents = (!report.attempts.is_empty()).then_some(INCIDENTS_CSV);

@@ -5,9 +5,9 @@ use vitriol_lesson::Texts;
 use vitriol_run::output::{INCIDENTS_CSV, REPORT_JSON};
 use vitriol_run::page::{CURVE_COLOURS, page};
 use vitriol_run::units::{self, grouped, percent, three_digits, with_unit};
-use vitriol_run::{LedgerSample, Sample};
+use vitriol_run::{Cut, LedgerSample, Sample};
 
-use super::model::Report;
+use super::model::{FilmStatement, Report};
 use super::plot::{Curve, Plot, over_time};
 
 /// Density of air at 20 °C and one atmosphere, kg/m³.
@@ -138,6 +138,7 @@ impl Report {
                 figure.film {
                     figcaption { (caption(&film.colour)) }
                     video src=(film.path) controls loop playsinline
+                        poster=[film.poster.as_deref()] data-cuts=[cuts(film)]
                         width=(film.width) height=(film.height) {}
                 }
             }
@@ -146,6 +147,9 @@ impl Report {
                     (film.width) " × " (film.height) ", " (film.fps) " Hz, "
                     (grouped(film.frames))
                     " frames. "
+                    @if let Some(left_out) = left_out(film, self.simulated_s) {
+                        "Idle moments are left out: " (left_out) " of " (three_digits(self.simulated_s)) " s. "
+                    }
                     @if self.attempts.is_empty() { "A click into a plot below goes to that moment." }
                     @else { "A time beside the words goes to that moment, as does a click into a plot." }
                 }
@@ -322,6 +326,19 @@ fn figure(key: &str, name: &str, value: &str, note: &str, bad: bool) -> Markup {
 
 fn row(name: &str, value: &str) -> Markup {
     html! { tr { th scope="row" { (name) } td { (value) } } }
+}
+
+/// A film's cuts as its page's script reads them: pairs of the film's time and the run's, s.
+fn cuts(film: &FilmStatement) -> Option<String> {
+    let pair = |cut: &Cut| format!("{:.4},{:.4}", cut.film_s, cut.t_s);
+    let pairs: Vec<String> = film.cuts.iter().map(pair).collect();
+    (film.cuts.len() > 1).then(|| pairs.join(" "))
+}
+
+/// Simulated time that a film does not show, of a run of so many seconds.
+fn left_out(film: &FilmStatement, simulated_s: f64) -> Option<String> {
+    let shown = film.frames as f64 / f64::from(film.fps);
+    (film.cuts.len() > 1).then(|| format!("{:.1}", simulated_s - shown))
 }
 
 /// What a film shows.

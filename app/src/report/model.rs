@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Boiling, Rubric, Score, Texts};
-use vitriol_run::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
+use vitriol_run::{Counters, Cut, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_sim::scene::Scene;
 
 /// How a run stands to the recording that it replays.
@@ -204,6 +204,13 @@ pub struct FilmStatement {
     /// What it shows: `liquid`, or particles coloured by `speed`, `temperature` or
     /// `acid`.
     pub colour: String,
+    /// Where it goes on at another simulated time, since idle moments are left out; the first one is its begin. Empty in reports of
+    /// older versions, whose films leave nothing out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cuts: Vec<Cut>,
+    /// A picture of its most violent moment, relative to the report's folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poster: Option<String>,
 }
 
 /// What every scene states of its scale, and what it models.

@@ -7,7 +7,7 @@ use vitriol_lesson::Texts;
 use vitriol_render::PassPicture;
 use vitriol_run::{
     Action, Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Judging, Outcome, Sample,
-    SimulatedTime, Taken, interrupt,
+    SimulatedTime, Taken, Worth, interrupt,
 };
 use vitriol_xr::PoseFrame;
 
@@ -179,6 +179,10 @@ impl Experiment for Live {
             self.coder.give(whole, time_us);
         }
         Ok(picture)
+    }
+
+    fn worth(&self) -> Worth {
+        self.inner.worth()
     }
 
     fn heard(&mut self) -> Result<Heard, Failure> {

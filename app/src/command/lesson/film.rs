@@ -81,6 +81,7 @@ pub fn make(
         room: None,
         // Hands show how it is done, and only the head's view shows hands.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
+        directed: false,
         look: None,
         shaders: Arc::new(Library::embedded()),
     })?;

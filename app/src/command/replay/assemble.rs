@@ -14,6 +14,7 @@ use crate::report::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, Report, SceneStatement,
     SolverStatement,
 };
+use vitriol_run::output::POSTER;
 use vitriol_run::texts::Texts;
 
 /// The report, without its part on the recording and without its score.
@@ -27,7 +28,7 @@ pub(super) fn assemble(
     seed: u64,
     (name, scene): (&str, &Scene),
     outcome: Outcome,
-    observations: Observations,
+    (observations, poster): (Observations, bool),
 ) -> Result<Report, Failure> {
     let samples = &observations.samples;
     // The filling is not the solver's work, so the start does not count.
@@ -42,6 +43,8 @@ pub(super) fn assemble(
             fps: FILM_FPS,
             frames: observations.film_frames,
             colour: colour.name().into(),
+            cuts: observations.cuts.clone(),
+            poster: (index == 0 && poster).then(|| POSTER.into()),
         })
     };
     let attempts = Attempt::all(outcome.events);
@@ -143,7 +146,11 @@ fn command_line(
     seed: u64,
     solver: Option<[u32; 2]>,
 ) -> String {
-    let head = (args.camera == CameraName::Head).then(|| "head".to_owned());
+    let camera = match args.camera {
+        CameraName::Director => None,
+        CameraName::Fixed => Some("fixed".to_owned()),
+        CameraName::Head => Some("head".to_owned()),
+    };
     let options = [
         ("scene", args.scene.as_deref().map(quoted)),
         ("preset", Some(preset.name().to_owned())),
@@ -151,7 +158,7 @@ fn command_line(
         ("solver", solver.map(|[a, b]| format!("{a}x{b}"))),
         ("seconds", args.seconds.map(|seconds| seconds.to_string())),
         ("device", args.device.as_deref().map(quoted)),
-        ("camera", head),
+        ("camera", camera),
         ("colour", args.colour.map(|it| it.name().to_owned())),
         ("filter", args.filter.map(|it| it.name().to_owned())),
         ("tint", args.drawn.tint.map(|it| it.name().to_owned())),
