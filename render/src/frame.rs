@@ -10,6 +10,7 @@ use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
 use crate::fovea::Foveation;
 use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
+use crate::resting::RestingDrop;
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
@@ -90,6 +91,9 @@ pub struct FrameDesc<'a> {
     pub hands: [&'a [Bone]; 2],
     /// Bones of the tools, together at most [`MOST_BONES`].
     pub tools: &'a [Bone],
+    /// Drops that lie where they came to rest, of more than [`MOST_RESTING`](crate::MOST_RESTING) the first. They are drawn as drops of
+    /// spray are, where the liquid has spray.
+    pub resting: &'a [RestingDrop],
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,

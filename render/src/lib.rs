@@ -47,6 +47,7 @@ mod print;
 mod readback;
 pub mod reference;
 mod renderer;
+mod resting;
 mod scene;
 mod solids;
 mod source;
@@ -70,6 +71,7 @@ pub use pass_pictures::{PassPicture, PassesReadback};
 pub use print::Label;
 pub use readback::PictureReadback;
 pub use renderer::Renderer;
+pub use resting::{MOST_RESTING, RestingDrop};
 pub use scene::{BoxDesc, SceneDesc, ShardDesc, VesselDesc};
 pub use source::{
     BubbleSource, LiquidSource, Neighbours, ParticleSource, SpraySource, SteamSource, VesselTables,

@@ -249,8 +249,9 @@ impl Renderer {
                 .record_nearest(rec, &self.frame, particles, solids, &self.tiles)?;
         }
         if let Some(flights) = self.flights(frame, slot)? {
+            let drops = (flights, (frame.resting, frame.length_scale));
             self.spray
-                .record_nearest(rec, &self.frame, flights, &self.solids, &self.tiles)?;
+                .record_nearest(rec, &self.frame, drops, &self.solids, &self.tiles)?;
         }
         if has_hands(frame) {
             self.hands

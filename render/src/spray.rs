@@ -5,6 +5,7 @@ use vitriol_shaders::{Library, ShaderId, layout, spray};
 
 use crate::RenderError;
 use crate::compute::compute;
+use crate::resting::{Resting, RestingDrop};
 use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
@@ -12,6 +13,7 @@ use crate::tiles::{Class, Tiles};
 pub(crate) struct Spray {
     nearest_pass: ComputePipeline,
     light_pass: ComputePipeline,
+    resting: Resting,
 }
 
 /// Flights of drops as they are drawn.
@@ -21,6 +23,8 @@ pub(crate) struct Flights<'a> {
     pub(crate) buffer: &'a Buffer,
     /// Indices of the flights that have drops, after the size of the dispatch over them.
     pub(crate) flying: &'a Buffer,
+    /// Flights of the bubbles' places; behind them are those of drops that rest.
+    pub(crate) places: usize,
 }
 
 impl Spray {
@@ -30,6 +34,7 @@ impl Spray {
         Ok(Self {
             nearest_pass: compute(gpu, library, spray::NEAREST, &[])?,
             light_pass: compute(gpu, library, spray::LIGHT, &[class])?,
+            resting: Resting::new(gpu)?,
         })
     }
 
@@ -41,16 +46,17 @@ impl Spray {
     }
 
     /// Records the passes that find the nearest drop of each pixel and mark the tiles with drops, after the other marks and before the
-    /// lists.
+    /// lists. `resting` are the drops that rest, and the metres that a unit of the scene is drawn as.
     pub(crate) fn record_nearest(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
-        flights: Flights<'_>,
+        (flights, resting): (Flights<'_>, (&[RestingDrop], f32)),
         solids: &Solids,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
         rec.group("spray", |rec| {
+            self.resting.record(rec, flights, resting)?;
             rec.fill(&solids.depths, 0)?;
             rec.fill(&solids.nearest, 0)?;
             for numbers in [0, 1] {

@@ -17,6 +17,7 @@ use vitriol_xr::Hand;
 use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
+use crate::marks::Marks;
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards, tint};
 use crate::stage;
 use crate::tools::{pane, tools};
@@ -139,6 +140,8 @@ pub struct Camera {
     hands: [Hand; 2],
     /// What a thermometer shows, °C.
     celsius: f64,
+    /// Drops that lie where they came to rest.
+    marks: Marks,
 }
 
 impl Camera {
@@ -178,6 +181,7 @@ impl Camera {
             gloves: Gloves::of(scene),
             hands: Default::default(),
             celsius: 20.0,
+            marks: Marks::default(),
         })
     }
 
@@ -210,6 +214,11 @@ impl Camera {
     /// Shows a thermometer at this temperature, °C.
     pub fn show_temperature(&mut self, celsius: f64) {
         self.celsius = celsius;
+    }
+
+    /// Shows these drops where they came to rest.
+    pub fn show_marks(&mut self, marks: &Marks) {
+        self.marks.clone_from(marks);
     }
 
     /// The world as it is now, coloured by speed where it has not what is asked
@@ -308,6 +317,7 @@ impl Camera {
         };
         let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
         let bones = self.gloves.worn(world, &self.hands, &[None; 2]);
+        let resting = self.marks.drawn(bones.each_ref().map(Vec::as_slice));
         let tools = tools(world, self.celsius);
         let frame = FrameDesc {
             extent: None,
@@ -317,6 +327,7 @@ impl Camera {
             particles: liquid.is_none().then_some(particles),
             hands: bones.each_ref().map(Vec::as_slice),
             tools: &tools,
+            resting: &resting,
             liquid,
             steam: solver
                 .puffs()

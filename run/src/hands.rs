@@ -15,6 +15,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Pose, Side};
 
+pub(crate) use bones::ACROSS;
 pub use bones::{JOINTS, Joints, bones_of};
 pub use grasp::{Grasp, closed_on};
 pub use held_glass::Glass;

@@ -6,8 +6,9 @@ use vitriol_shaders::Library;
 use vitriol_sim::world::World;
 
 use crate::camera::{Camera, Colour, Shot};
+use crate::canvas::Canvas;
 use crate::failure::Failure;
-use crate::legend::{Canvas, SIZE};
+use crate::legend::SIZE;
 use crate::scenery::drawn_liquid;
 
 /// Simulated time that it shows, s, and how many times slower than it was.
@@ -104,15 +105,15 @@ impl Inset {
         let outer = extent.map(|pixels| pixels + 2 * FRAME);
         let corner = [width - MARGIN - outer[0], height - MARGIN - outer[1]];
         let title = SIZE.val() + 6;
-        let mut canvas = Canvas::of(film, width);
+        let mut canvas = Canvas::new(film, width);
         for y in corner[1]..corner[1] + outer[1] {
             for x in corner[0]..corner[0] + outer[0] {
                 canvas.blend(x, y, [255; 3], 255);
             }
         }
-        canvas.whiten([corner[0], corner[1] - title], [outer[0], title]);
+        canvas.panel([corner[0], corner[1] - title], [outer[0], title]);
         let caption = format!("{SLOWER:.0} times slower");
-        canvas.write(corner[0] + 8, corner[1] - title + 3, &caption);
+        canvas.write(SIZE, [corner[0] + 8, corner[1] - title + 3], &caption);
         for (row, pixels) in picture.chunks_exact(4 * extent[0]).enumerate() {
             let first = 4 * ((corner[1] + FRAME + row) * width + corner[0] + FRAME);
             if let Some(place) = film.get_mut(first..first + pixels.len()) {

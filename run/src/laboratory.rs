@@ -300,6 +300,7 @@ impl Laboratory {
         while self.run.wait(newest)?.is_some() {}
         if let Some(camera) = &mut self.film {
             camera.show_temperature(self.run.thermometer());
+            camera.show_marks(self.run.marks());
         }
         Ok(())
     }

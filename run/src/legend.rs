@@ -1,21 +1,15 @@
 //! What a film's colours stand for, drawn into its pictures: a bar of the map with
 //! numbers and unit, or the two liquids' tints.
 
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster_width};
 use vitriol_render::{ColourBy, ColourMap, tints};
 
-/// Distance of the panel from the picture's left and upper edge, and of what is
-/// in it from its own, pixels.
-const MARGIN: usize = 16;
-const PADDING: usize = 12;
+use crate::canvas::{Canvas, INK, MARGIN, PADDING};
+
 /// The bar, pixels.
 const BAR: [usize; 2] = [280, 14];
 /// Height of a tick below the bar, pixels.
 const TICK: usize = 5;
-/// Share of the panel's white over the picture.
-const WHITENESS: u32 = 215;
-/// Text and ticks, sRGB grey.
-const INK: u32 = 30;
 
 pub(crate) const SIZE: RasterHeight = RasterHeight::Size16;
 
@@ -57,12 +51,13 @@ impl Legend {
             BAR[0] + 2 * PADDING,
             2 * text + BAR[1] + TICK + 2 * PADDING + 4,
         ];
-        let Some(mut canvas) = Canvas::with_panel(picture, width, panel) else {
+        let mut canvas = Canvas::new(picture, width);
+        if !canvas.panel([MARGIN; 2], panel) {
             return;
-        };
+        }
         let left = MARGIN + PADDING;
         let mut top = MARGIN + PADDING;
-        canvas.write(left, top, self.title);
+        canvas.write(SIZE, [left, top], self.title);
         top += text + 4;
         for x in 0..BAR[0] {
             let place = x as f32 / (BAR[0] - 1) as f32;
@@ -84,7 +79,7 @@ impl Legend {
             let label = format!("{value:.*}", self.decimals);
             let wide = label.chars().count() * get_raster_width(FontWeight::Regular, SIZE);
             let start = (at.saturating_sub(wide / 2)).clamp(MARGIN, left + BAR[0] + PADDING - wide);
-            canvas.write(start, top + TICK, &label);
+            canvas.write(SIZE, [start, top + TICK], &label);
         }
     }
 
@@ -109,9 +104,10 @@ pub fn draw_tints(picture: &mut [u8], width: usize) {
     let letters = lines.iter().map(|(_, name)| name.len() + 3).max();
     let wide = letters.unwrap_or(0) * get_raster_width(FontWeight::Regular, SIZE);
     let panel = [wide + 2 * PADDING, lines.len() * line + 2 * PADDING];
-    let Some(mut canvas) = Canvas::with_panel(picture, width, panel) else {
+    let mut canvas = Canvas::new(picture, width);
+    if !canvas.panel([MARGIN; 2], panel) {
         return;
-    };
+    }
     let left = MARGIN + PADDING;
     for (index, (tint, name)) in lines.into_iter().enumerate() {
         let top = MARGIN + PADDING + index * line;
@@ -125,7 +121,7 @@ pub fn draw_tints(picture: &mut [u8], width: usize) {
             }
             start += 2 * text + 8;
         }
-        canvas.write(start, top, name);
+        canvas.write(SIZE, [start, top], name);
     }
 }
 
@@ -134,65 +130,6 @@ fn tick_step(range: f32) -> f32 {
     let steps = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
     let fits = steps.into_iter().find(|step| range / step <= 7.0);
     fits.unwrap_or(1000.0)
-}
-
-pub(crate) struct Canvas<'a> {
-    picture: &'a mut [u8],
-    width: usize,
-}
-
-impl<'a> Canvas<'a> {
-    /// Rows of `width` pixels from the top, RGBA.
-    pub(crate) fn of(picture: &'a mut [u8], width: usize) -> Self {
-        Self { picture, width }
-    }
-
-    /// With the white that a legend stands on, in the upper left corner, where it has room.
-    fn with_panel(picture: &'a mut [u8], width: usize, panel: [usize; 2]) -> Option<Self> {
-        let height = picture.len() / 4 / width.max(1);
-        if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
-            return None;
-        }
-        let mut canvas = Self { picture, width };
-        canvas.whiten([MARGIN; 2], panel);
-        Some(canvas)
-    }
-
-    /// Lays white over a rectangle of that corner and size, pixels, so that text on it can be read.
-    pub(crate) fn whiten(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2]) {
-        for y in top..top + height {
-            for x in left..left + width {
-                self.blend(x, y, [255; 3], WHITENESS);
-            }
-        }
-    }
-
-    /// Lays `colour` over a pixel; `alpha` is 0 to 255.
-    pub(crate) fn blend(&mut self, x: usize, y: usize, colour: [u32; 3], alpha: u32) {
-        let first = 4 * (y * self.width + x);
-        let Some(pixel) = self.picture.get_mut(first..first + 3) else {
-            return;
-        };
-        for (old, new) in pixel.iter_mut().zip(colour) {
-            let mixed = (u32::from(*old) * (255 - alpha) + new * alpha + 127) / 255;
-            *old = mixed.min(255) as u8;
-        }
-    }
-
-    pub(crate) fn write(&mut self, x: usize, y: usize, text: &str) {
-        let advance = get_raster_width(FontWeight::Regular, SIZE);
-        for (index, letter) in text.chars().enumerate() {
-            // The font has all letters that titles and numbers are made of.
-            let Some(raster) = get_raster(letter, FontWeight::Regular, SIZE) else {
-                continue;
-            };
-            for (dy, row) in raster.rows().enumerate() {
-                for (dx, &ink) in row.iter().enumerate() {
-                    self.blend(x + index * advance + dx, y + dy, [INK; 3], ink.into());
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]

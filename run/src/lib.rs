@@ -2,11 +2,14 @@
 //! Below program and study, which have the commands.
 
 mod action;
+mod animated;
 pub mod arguments;
 pub mod audible;
 mod boiling;
 pub mod budget;
 mod camera;
+mod canvas;
+pub mod captions;
 pub mod choices;
 mod clock;
 mod console;
@@ -27,6 +30,7 @@ mod laboratory;
 mod legend;
 mod liquid;
 mod looks;
+mod marks;
 mod moment;
 mod observer;
 pub mod output;
@@ -52,6 +56,7 @@ pub mod track;
 pub mod units;
 
 pub use action::Action;
+pub use animated::{AnimatedPicture, halved};
 pub use boiling::boiling;
 pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
@@ -67,11 +72,12 @@ pub use judging::Judging;
 pub use laboratory::{Laboratory, Setup, on_device, prepare};
 pub use liquid::Liquid;
 pub use looks::{Looked, Looks};
+pub use marks::Marks;
 pub use moment::{Moment, Watch};
 pub use observer::{FILM_FPS, FILM_SIZE, Observations, Observer, sample_is_due};
 pub use progress::Progress;
 pub use rank::{Ranks, Spread};
-pub use replay::replay;
+pub use replay::{Stepping, replay};
 pub use run::Run;
 pub use sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 pub use scenes::Scenes;

@@ -25,6 +25,12 @@ pub const FILM: &str = "film.mp4";
 pub const POSTER: &str = "film.png";
 /// The name of the film coloured by temperature.
 pub const FILM_TEMPERATURE: &str = "film-temperature.mp4";
+/// The name of the film of two scenes side by side.
+pub const COMPARE_FILM: &str = "compare.mp4";
+/// The name of the same as an animated picture.
+pub const COMPARE_PICTURE: &str = "compare.gif";
+/// The name of what was measured in both; it is written last.
+pub const COMPARE_JSON: &str = "compare.json";
 
 /// What can go wrong with the place of the results.
 #[derive(Debug, thiserror::Error)]
@@ -326,6 +332,9 @@ impl OutDir {
                 STATEMENTS,
                 FILM,
                 FILM_TEMPERATURE,
+                COMPARE_FILM,
+                COMPARE_PICTURE,
+                COMPARE_JSON,
             ];
             for found in files {
                 if path.join(found).symlink_metadata().is_ok() {

@@ -4,7 +4,7 @@
 use vitriol_xr::{PoseFrame, PoseSource};
 
 use crate::clock::{SimulatedTime, Span};
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Taken};
 use crate::failure::{Blame, Failure};
 use crate::interrupt;
 use crate::moment::{Moment, Watch};
@@ -21,32 +21,63 @@ pub fn replay<E: Experiment + ?Sized>(
     span: Span,
     watch: &mut impl Watch<E>,
 ) -> Result<(), Failure> {
-    let mut time = SimulatedTime::default();
-    watch.observe(&Moment { time, frame: None }, experiment)?;
-    let mut held: Option<PoseFrame> = None;
-    while !span.is_over(&time) {
+    let mut stepping = Stepping::default();
+    watch.observe(&stepping.moment(), experiment)?;
+    while !span.is_over(&stepping.time) {
+        if stepping.step(source, experiment)?.anew {
+            watch.start_over()?;
+        }
+        watch.observe(&stepping.moment(), experiment)?;
+    }
+    Ok(())
+}
+
+/// Where a run is that is stepped one step at a time, as two are that keep up with each other.
+#[derive(Debug, Default)]
+pub struct Stepping {
+    time: SimulatedTime,
+    held: Option<PoseFrame>,
+}
+
+impl Stepping {
+    /// Steps and simulated time so far.
+    pub fn time(&self) -> SimulatedTime {
+        self.time
+    }
+
+    /// Takes one step with the source's next poses, or with its last ones where it has ended.
+    ///
+    /// # Errors
+    /// An error of source or experiment.
+    pub fn step<E: Experiment + ?Sized>(
+        &mut self,
+        source: &mut dyn PoseSource,
+        experiment: &mut E,
+    ) -> Result<Taken, Failure> {
         interrupt::check()?;
-        let step = time.steps();
-        match source.next(step, time.seconds()).other()? {
-            Some(frame) => held = Some(frame),
+        let step = self.time.steps();
+        match source.next(step, self.time.seconds()).other()? {
+            Some(frame) => self.held = Some(frame),
             None => {
-                if let Some(frame) = &mut held {
+                if let Some(frame) = &mut self.held {
                     frame.step = step;
                     // A switch acts once, not again in each held frame.
                     frame.scenario.clear();
                 }
             }
         }
-        let Some(frame) = &held else {
+        let Some(frame) = &self.held else {
             return Err("the track has no pose at its start; record it again").input();
         };
         let taken = experiment.step(frame)?;
-        if taken.anew {
-            watch.start_over()?;
-        }
-        time.advance(taken.frame_time);
-        let frame = Some(frame);
-        watch.observe(&Moment { time, frame }, experiment)?;
+        self.time.advance(taken.frame_time);
+        Ok(taken)
     }
-    Ok(())
+
+    fn moment(&self) -> Moment<'_> {
+        Moment {
+            time: self.time,
+            frame: self.held.as_ref(),
+        }
+    }
 }

@@ -17,6 +17,7 @@ use crate::clock::SimulatedTime;
 use crate::failure::{Blame, Failure, blame_world};
 use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
+use crate::marks::Marks;
 use crate::{stage, track};
 
 pub use recording::{Note, RecordingStatus, Said, Sink, TrackRecording};
@@ -38,6 +39,7 @@ pub struct Run {
     breakable: bool,
     muted: bool,
     seen: LastSeen,
+    marks: Marks,
     events: Vec<lesson::Event>,
     progress: Vec<Progress>,
     instructions: Vec<(f64, Action)>,
@@ -80,6 +82,7 @@ impl Run {
             breakable: false,
             muted: false,
             seen: LastSeen::default(),
+            marks: Marks::default(),
             events: Vec::new(),
             progress: Vec::new(),
             instructions: Vec::new(),
@@ -136,6 +139,11 @@ impl Run {
     /// Where the liquid was last.
     pub fn seen(&self) -> &LastSeen {
         &self.seen
+    }
+
+    /// Drops that lie where they came to rest since the scene's start.
+    pub fn marks(&self) -> &Marks {
+        &self.marks
     }
 
     /// What the thermometer shows, °C.
@@ -248,6 +256,7 @@ impl Run {
         self.audible = Audible::of(self.world.scene());
         self.audible.mute_boiling(self.muted);
         self.seen = LastSeen::default();
+        self.marks = Marks::default();
     }
 
     /// Takes a step with the poses of that frame of the [stage], observes the liquid behind it on the same queue, and
@@ -272,6 +281,8 @@ impl Run {
         }
         self.counts.substeps += u64::from(self.world.scene().solver.substeps);
         self.counts.flasks_broken += self.world.breaks().len() as u64;
+        self.marks.wiped(&self.world);
+        self.marks.wears(self.world.worn());
         self.time.advance(self.world.scene().scale.frame_time);
         let t = self.time.seconds();
         let held = |flask| self.world.holder(flask).is_some();
@@ -349,6 +360,9 @@ impl Run {
         let census = &looked.census;
         self.seen.spilt = [&census.table, &census.floor].map(|held| real * held.volume);
         self.seen.flasks.clone_from(&census.flasks);
+        let (scale, hands) = (self.world.scene().scale.length_scale, &looked.hands);
+        self.marks
+            .take(census, hands.each_ref().map(Vec::as_slice), scale);
         // From the observation before on.
         let since = looked.t - looked.elapsed;
         let heard = self

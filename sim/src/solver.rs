@@ -39,8 +39,8 @@ mod wall_heat;
 
 pub(crate) use census::LooksMemoryRecord;
 pub use census::{
-    BubbleCount, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, LooksMemory,
-    MOST_LIMBS, Moved, Place, SCALDS, Skin, SkinPart, Touching,
+    BubbleCount, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, Landed, LooksMemory,
+    MOST_LIMBS, Moved, Onto, Place, SCALDS, Skin, SkinPart, Touching,
 };
 pub use counters::Counters;
 pub use error::SolverError;

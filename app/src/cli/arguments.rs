@@ -46,6 +46,23 @@ pub(super) fn colour() -> impl TypedValueParser<Value = Colour> {
     named(&COLOURS, Colour::name)
 }
 
+/// Two scenes, which differ.
+fn two_scenes(text: &str) -> Result<[String; 2], String> {
+    const REMEDY: &str = "such as acid-into-water,water-into-acid";
+    let names: Vec<&str> = text.split(',').map(str::trim).collect();
+    match names[..] {
+        [one, other] if one == other && !one.is_empty() => Err(format!(
+            "both are {one}; give two scenes that differ, {REMEDY}"
+        )),
+        [one, other] if !one.is_empty() && !other.is_empty() => {
+            Ok([one.to_owned(), other.to_owned()])
+        }
+        _ => Err(format!(
+            "give two scenes with a comma between them, {REMEDY}"
+        )),
+    }
+}
+
 /// Arguments of `vitriol replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
@@ -57,6 +74,12 @@ pub struct ReplayArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
+    /// In place of a report: these two scenes at the same time, side by side in a film and an animated picture, with
+    /// highest temperatures and thrown masses as captions
+    #[arg(long, value_name = "SCENE,SCENE", value_parser = two_scenes)]
+    #[arg(conflicts_with_all = ["scene", "budget_ms", "camera", "colour", "lesson", "mode", "no_video"])]
+    #[cfg_attr(feature = "class", arg(conflicts_with_all = ["pseudonym", "live"]))]
+    pub compare: Option<[String; 2]>,
     /// Trade of speed for accuracy; without it the one that the track was
     /// recorded with, or else balanced
     #[arg(long, value_parser = preset())]
@@ -166,5 +189,57 @@ pub(super) fn rate(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(rate),
         _ => Err("give a rate of 1 to 1000 frames a second, such as 90".into()),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::cli::Cli;
+
+    #[test]
+    fn two_scenes_are_compared() {
+        let two = two_scenes("acid-into-water, water-into-acid").unwrap();
+        assert_eq!(two, ["acid-into-water", "water-into-acid"]);
+        for wrong in ["beaker", "", ",", "beaker,", "a,b,c"] {
+            let said = two_scenes(wrong).unwrap_err();
+            assert!(said.contains("comma between them, such as"), "{said}");
+        }
+        let said = two_scenes("beaker,beaker").unwrap_err();
+        assert!(
+            said.contains("both are beaker") && said.contains("differ, such as"),
+            "{said}"
+        );
+    }
+
+    /// What would make it a run of another kind is refused beside it.
+    #[test]
+    fn a_comparison_is_nothing_else() {
+        let parsed = |more: &str| {
+            let line = format!("vitriol replay two-flasks --compare beaker,dam-break{more}");
+            Cli::try_parse_from(line.split(' '))
+        };
+        for goes in ["", " --preset fast --seconds 1 --tint none --out x"] {
+            assert!(parsed(goes).is_ok(), "{goes}");
+        }
+        let others = [
+            "--scene beaker",
+            "--budget-ms 5",
+            "--camera head",
+            "--colour speed",
+            "--lesson dilute",
+            "--no-video",
+        ];
+        for other in others {
+            assert!(parsed(&format!(" {other}")).is_err(), "{other}");
+        }
+        if cfg!(feature = "class") {
+            for other in ["--live", "--pseudonym p07"] {
+                assert!(parsed(&format!(" {other}")).is_err(), "{other}");
+            }
+        }
     }
 }

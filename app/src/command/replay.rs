@@ -3,6 +3,7 @@
 mod assemble;
 #[cfg(feature = "class")]
 mod class;
+mod compare;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -90,6 +91,9 @@ pub fn run(
         let console = class::ReplayConsole::begin(args, format)?;
         move |setup: &Setup<'_>| console.show(prepare(setup)?, setup.scene_name)
     };
+    if let Some(scenes) = &args.compare {
+        return compare::run((args, scenes), &bars, format, &prepare);
+    }
     if let [track] = &args.tracks[..] {
         let done = replay((args, track), args.out.clone(), &bars, &prepare)?;
         return emit(format, &done, describe);

@@ -18,9 +18,11 @@ impl Report {
                 div {
                     h2 { "What happened" }
                     @for (number, (attempt, score)) in attempts() {
+                        @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
                         article.attempt {
+                            (contact)
                             (heading(number, several, attempt, score))
-                            (told(&sentences(attempt, score, texts), film))
+                            (told(&said, film))
                         }
                     }
                     (self.instructed(film))
@@ -95,6 +97,33 @@ impl Report {
             }
         }
     }
+}
+
+/// The gravest contact with acid or hot liquid, if there was one, and the sentences without the one about it.
+fn contact(
+    attempt: &Attempt,
+    mut said: Vec<Sentence>,
+    texts: &Texts,
+    film: bool,
+) -> (Markup, Vec<Sentence>) {
+    let gravest = attempt.gravest_contact();
+    let Some((gravest, words)) = gravest.and_then(|it| Some((it, texts.contact(it)?))) else {
+        return (html! {}, said);
+    };
+    let below = texts.wrong(attempt, gravest);
+    let at = |it: &Sentence| it.t_s == Some(gravest.t_s) && it.text == below;
+    let more = said.iter().position(at).map(|n| said.remove(n).more);
+    let markup = html! {
+        div.contact {
+            (moment(Some(gravest.t_s), film))
+            div {
+                p.gravest { (words.text) }
+                p { (words.amount) }
+                @if let Some(more) = more.flatten() { p.note { (more) } }
+            }
+        }
+    };
+    (markup, said)
 }
 
 /// An attempt's name and points.
@@ -244,8 +273,57 @@ fn bar(points: u32, of: u32) -> Markup {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
-    use super::clock;
+    use super::*;
+    use vitriol_lesson::{Cause, Incident, Rubric, Skin, What};
+
+    /// Acid on a hand is said before the points and before all that went wrong, once.
+    #[test]
+    fn acid_on_skin_is_said_before_anything_else() {
+        let texts = Texts::english().unwrap();
+        let mut attempt = Attempt {
+            begun_s: 0.0,
+            scene: "water-into-acid".into(),
+            contents: Default::default(),
+            pours: Vec::new(),
+            incidents: Vec::new(),
+            ending: None,
+        };
+        let page = |attempt: &Attempt| {
+            let score = Score::of(attempt, &Rubric::default(), &texts);
+            let said = sentences(attempt, &score, &texts);
+            let (first, said) = contact(attempt, said, &texts, true);
+            let text = html! { (first) (told(&said, true)) }.into_string();
+            text.replace('\u{a0}', " ")
+        };
+        assert!(!page(&attempt).contains("class=\"contact\""));
+        let incident = |t_s: f64, what: What| Incident {
+            t_s,
+            until_s: t_s + 1.0,
+            what,
+            cause: Cause::Unknown,
+            place_m: [0.0; 3],
+        };
+        let hot = What::Hot {
+            flask: "target".into(),
+            temperature_c: 150.0,
+        };
+        let on_hand = What::OnSkin {
+            skin: Skin::RightHand,
+            volume_m3: 0.12e-6,
+            acid: 0.9,
+            temperature_c: Some(148.0),
+            protected: false,
+        };
+        attempt.incidents = vec![incident(1.0, hot), incident(2.0, on_hand)];
+        let page = page(&attempt);
+        let first = page.find("Acid at 148 °C on your hand.").unwrap();
+        assert!(first < page.find("What went wrong").unwrap());
+        assert!(page[..first].contains("#t=2.000"));
+        assert!(!page.contains("On the skin of the right hand"));
+        assert!(page.contains("Rinse at once"));
+    }
 
     #[test]
     fn moments_are_as_a_player_says_them() {

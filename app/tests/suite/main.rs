@@ -4,6 +4,7 @@
 #[cfg(unix)]
 mod bench;
 mod cli;
+mod compare;
 #[cfg(target_os = "linux")]
 mod console;
 mod docs;

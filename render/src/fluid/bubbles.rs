@@ -7,6 +7,7 @@ use super::SLOTS;
 use crate::RenderError;
 use crate::compute::compute;
 use crate::frame::bubble_cell;
+use crate::resting::MOST_RESTING;
 use crate::source::BubbleSource;
 
 /// Size of the hash table of cells, as in `common/picture/bubble_cells.wgsl`; behind it is the number of entries.
@@ -36,7 +37,7 @@ pub(crate) struct Cells {
     /// For each place of the table its first entry plus one, then the number of entries.
     pub(crate) heads: Buffer,
     pub(crate) entries: Buffer,
-    /// Two flights of drops for each place of a bubble.
+    /// Two flights of drops for each place of a bubble, then those that lie where they came to rest.
     pub(crate) flights: Buffer,
     /// Indices of the flights that have drops, after the size of the dispatch over them (`common/picture/spray_drops.wgsl`).
     pub(crate) flying: Buffer,
@@ -56,8 +57,9 @@ impl BubbleCells {
         };
         let cells = || -> Result<Cells, RenderError> {
             let heads = bytes_of_elements::<u32>(CELLS + 1);
-            let flights = bytes_of_elements::<layout::Flight>(2 * most.max(1) as usize);
-            let flying = bytes_of_elements::<u32>(FLYING + 2 * most.max(1) as usize);
+            let places = 2 * most.max(1) as usize + MOST_RESTING;
+            let flights = bytes_of_elements::<layout::Flight>(places);
+            let flying = bytes_of_elements::<u32>(FLYING + places);
             let held = bytes_of_elements::<layout::BubbleEntry>(entries.max(1) as usize);
             let cells = Cells {
                 heads: Buffer::storage(gpu, "bubble cells", heads)?,
@@ -120,7 +122,7 @@ impl BubbleCells {
                     mass: spray.mass,
                     views: self.views,
                 })
-                .invocations(count)
+                .invocations(count + MOST_RESTING as u32)
         })
     }
 

@@ -24,9 +24,10 @@ impl Renderer {
         let bubbles = source.bubbles;
         let bubbles = bubbles.filter(|bubbles| bubbles.spray.is_some() && bubbles.count > 0);
         let cells = fluid.bubbles(slot);
-        Ok(bubbles.map(|_| Flights {
+        Ok(bubbles.map(|bubbles| Flights {
             buffer: &cells.flights,
             flying: &cells.flying,
+            places: 2 * bubbles.count as usize,
         }))
     }
 

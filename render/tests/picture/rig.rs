@@ -175,6 +175,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         particles: None,
         hands: [&[]; 2],
         tools: &[],
+        resting: &[],
         liquid: None,
         steam: None,
         panel: None,

@@ -228,6 +228,7 @@ fn another_length_scale_gives_the_same_picture() {
             // Hands are in real metres, as views are.
             hands: [&[finger], &[]],
             tools: &[],
+            resting: &[],
             foveation: None,
             colour_by: ColourBy::Speed(1.0 / scale),
             length_scale: scale,

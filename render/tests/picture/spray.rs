@@ -5,7 +5,7 @@ use crate::rig::{Picture, Rig, linear};
 use glam::Vec3;
 use std::f64::consts::PI;
 use vitriol_gpu::Buffer;
-use vitriol_render::{Bone, Finish, Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
+use vitriol_render::{Bone, Finish, Fov, FrameDesc, RestingDrop, SceneDesc, SurfaceFilter, View};
 use vitriol_shaders::layout::{Bubble, Drops};
 
 const EXTENT: [u32; 2] = [320, 240];
@@ -49,6 +49,18 @@ fn drawn_in(
     places: &[[f32; 2]],
     (radius, number): (f32, f32),
 ) -> Picture {
+    drawn_with(rig, views, (hand, &[]), about, places, (radius, number))
+}
+
+/// A picture as of [`drawn_in`], with drops that rest.
+fn drawn_with(
+    rig: &Rig,
+    views: &[View],
+    (hand, resting): (&[Bone], &[RestingDrop]),
+    about: f32,
+    places: &[[f32; 2]],
+    (radius, number): (f32, f32),
+) -> Picture {
     let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
     let mut drops = vec![Drops::default(); 2 * places.len().max(1)];
     for (n, place) in places.iter().enumerate() {
@@ -75,6 +87,7 @@ fn drawn_in(
     liquid.drops = Some(of_drops);
     let frame = FrameDesc {
         hands: [hand, &[]],
+        resting,
         ..frame(views, &[], &liquid)
     };
     draw(rig, &frame).0
@@ -116,6 +129,23 @@ fn drops_hide_their_own_area() {
         // Shares have 31 steps, levels 255; FXAA moves light between pixels, and does not add any.
         assert!((0.75..1.25).contains(&share), "{pixels}: {share}");
     }
+}
+
+/// Drops that rest are seen as drops are that fly there, to the last bit.
+#[test]
+fn drops_that_rest_are_seen_as_those_that_fly() {
+    let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let radius = (4.0 / FOCAL) as f32 * DISTANCE;
+    let places = [[0.0, 0.0], [0.01, 0.004], [-0.02, 0.01]];
+    let resting = places.map(|[x, y]| RestingDrop {
+        position: Vec3::new(x, 1.0 + y, -DISTANCE),
+        radius,
+    });
+    let flies = drawn(&rig, &places, radius, 1.0);
+    let rests = drawn_with(&rig, &[view()], (&[], &resting), JET, &[], (0.0, 0.0));
+    let plain = drawn(&rig, &[], 0.0, 0.0);
+    assert!(flies.colour[0] != plain.colour[0]);
+    assert!(rests.colour[0] == flies.colour[0]);
 }
 
 /// More flights than a workgroup takes, with empty places between them: each is where either eye sees it.

@@ -7,6 +7,7 @@
 mod attempt;
 mod boiling;
 mod caps;
+mod contact;
 mod event;
 mod finder;
 mod language;
@@ -24,6 +25,7 @@ mod words;
 pub use attempt::Attempt;
 pub use boiling::{Boiling, BoilingFigure};
 pub use caps::{Caps, Danger};
+pub use contact::ContactTexts;
 pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };

@@ -4,7 +4,7 @@ use glam::Affine3A;
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
 use vitriol_render::{
     Bone, ColourBy, Fov, Foveation, FrameDesc, HalfDepth, LiquidDesc, Panel, RenderDesc,
-    RenderError, Renderer, SteamSource, View,
+    RenderError, Renderer, RestingDrop, SteamSource, View,
 };
 use vitriol_run::hands::{Gloves, Joints};
 use vitriol_run::scenery::{affine, drawn_liquid, laboratory, liquid_of, shards};
@@ -117,6 +117,8 @@ pub struct Sight<'a> {
     pub hands: [&'a [Bone]; 2],
     /// The bones of the tools.
     pub tools: &'a [Bone],
+    /// Drops that lie where they came to rest.
+    pub resting: &'a [RestingDrop],
     /// The panel.
     pub panel: Option<Panel<'a>>,
     /// A sign.
@@ -321,6 +323,7 @@ impl Picture {
             particles: None,
             hands: sight.map_or([&[]; 2], |sight| sight.hands),
             tools: sight.map_or(&[], |sight| sight.tools),
+            resting: sight.map_or(&[], |sight| sight.resting),
             liquid: Some(liquid_of(world)),
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
                 puffs: &puffs[self.drawn % 2],

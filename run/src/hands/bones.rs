@@ -19,6 +19,9 @@ pub(super) const FINGERS: [usize; 4] = [6, 11, 16, 21];
 /// How many bones the thumb has: the first ones.
 pub(super) const THUMB_BONES: usize = 3;
 
+/// Which of a hand's bones lies across its knuckles: behind those of thumb and fingers, three between the metacarpal ones, and the web.
+pub(crate) const ACROSS: usize = THUMB_BONES + 4 * FINGERS.len() + 3 + 1;
+
 /// What a runtime's radii are taken for at least and at most, m: a runtime that has none gives 0.
 const RADII: [f32; 2] = [0.004, 0.025];
 /// Radius of the skin between thumb and index finger, and over the knuckles, m. Our choice.

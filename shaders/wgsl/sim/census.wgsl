@@ -64,6 +64,13 @@ const MOVED_VOLUME = 1u;
 /// Volume times acid fraction.
 const MOVED_ACID = 2u;
 
+/// Behind these: how many drops came to rest since the last look, and so many of them, in any order.
+const LANDINGS = 64u;
+const LANDING_WORDS = 10u;
+/// Onto what, beside the numbers of whose skin.
+const ONTO_TABLE = 3u;
+const ONTO_FLOOR = 4u;
+
 /// What a share of 1 stands for: °C from the first to the second; particles' volumes; and in `reach` a speed's seconds
 /// and a radius.
 const WARMTHS = vec2<f32>(-50.0, 350.0);
@@ -107,6 +114,8 @@ struct BubbleBefore {
     /// Whether it was about to join a larger one.
     touching: f32,
     membership: u32,
+    /// What of the drops in its place had come to rest since the start, of its jet and of its film, V0·ρ0.
+    fallen: vec2<f32>,
 }
 
 var<immediate> run: CensusRun;
@@ -168,6 +177,22 @@ fn moved(place: u32, origin: u32, volume: f32, acid: f32) {
     atomicAdd(&tallies[index + MOVED], 1u);
     atomicAdd(&tallies[index + MOVED_VOLUME], share(volume, 0.0, VOLUMES));
     atomicAdd(&tallies[index + MOVED_ACID], share(volume * acid, 0.0, VOLUMES));
+}
+
+/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), its volume over V0, acid and temperature. Those that find no
+/// place in the list are only not drawn.
+fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, liquid: vec3<f32>) {
+    let places = FLASKS + SKIN + SKINS;
+    let base = places * WORDS + places * FLASKS * MOVED_WORDS;
+    let n = atomicAdd(&tallies[base], 1u);
+    if (n >= LANDINGS) { return; }
+    let at = base + 1u + n * LANDING_WORDS;
+    atomicStore(&tallies[at], onto);
+    for (var k = 0u; k < 3u; k++) {
+        atomicStore(&tallies[at + 1u + k], bitcast<u32>(x[k]));
+        atomicStore(&tallies[at + 4u + k], bitcast<u32>(way[k]));
+        atomicStore(&tallies[at + 7u + k], bitcast<u32>(liquid[k]));
+    }
 }
 
 /// A value's share of the way from `low` to `high`.
@@ -277,6 +302,7 @@ fn count_particle(i: u32) {
             if (((now | way) & bit & ~touched) != 0u) {
                 came(part, x, v, volume, acid, celsius);
                 moved(part, origin, volume, acid);
+                landed(whose, x, v * run.elapsed, vec3<f32>(volume, acid, celsius));
             }
         }
         touched |= now | way;
@@ -291,6 +317,30 @@ fn count_particle(i: u32) {
     places_before[tag.y] = place | wetted << WETTED | touched << TOUCHED | lain << LAIN | origin << ORIGIN;
 }
 
+/// What of a record's drops came to rest since the start, of which `before` was known at the last look. What came to lie on table or floor
+/// since then is listed, where it lies; on glass, which moves, it is not.
+fn fallen_of(n: u32, before: f32) -> f32 {
+    let flight = drops[n];
+    let mass = flight.fallen.x - before;
+    // Where new drops fly already, the place is theirs.
+    if (run.first != 0u || mass <= 0.0 || flight.mass > 0.0) { return flight.fallen.x; }
+    if ((flight.memberships >> 16u) != NOBODYS || flight.density <= 0.0) { return flight.fallen.x; }
+    var x = flight.position;
+    var onto = ONTO_TABLE;
+    if (x.y < FLOOR + LYING) {
+        onto = ONTO_FLOOR;
+        x.y = FLOOR;
+    } else if (TABLE && place_of(NOBODYS, x) == FLASKS + ON_TABLE) {
+        x.y = TABLE_TOP;
+    } else {
+        return flight.fallen.x;
+    }
+    let volume = mass * REST_DENSITY / flight.density;
+    // It takes the temperature of what it lies on at once.
+    landed(onto, x, vec3<f32>(0.0), vec3<f32>(volume, saturate(flight.acid / mass), 0.0));
+    return flight.fallen.x;
+}
+
 fn count_bubble(slot: u32) {
     let bubble = bubbles[slot];
     let before = bubbles_before[slot];
@@ -299,7 +349,9 @@ fn count_bubble(slot: u32) {
     let was = run.first == 0u && before.peak > 0.0;
     let same = was && here && bubble.membership == before.membership && gone == before.gone;
     let peak = select(0.0, max(bubble.radius, select(0.0, before.peak, same)), here);
-    bubbles_before[slot] = BubbleBefore(peak, gone, bubble.touching, bubble.membership);
+    var fallen = vec2<f32>(0.0);
+    if (SPRAY) { fallen = vec2<f32>(fallen_of(2u * slot, before.fallen.x), fallen_of(2u * slot + 1u, before.fallen.y)); }
+    bubbles_before[slot] = BubbleBefore(peak, gone, bubble.touching, bubble.membership, fallen);
     let most = BUBBLE_RADII * run.reach;
     if (here) {
         let place = min(bubble.membership - 1u, FLASKS);
@@ -334,6 +386,7 @@ fn count_drops(n: u32) {
         let volume = flying.mass * REST_DENSITY / flying.density;
         came(FLASKS + SKIN + whose, flying.position, flying.velocity, volume, acid, celsius);
         moved(FLASKS + SKIN + whose, flying.memberships & 0xffffu, volume, acid);
+        landed(whose, flying.position, run.elapsed * flying.velocity, vec3<f32>(volume, acid, celsius));
     }
 }
 

@@ -10,7 +10,7 @@ use super::pipelines::{Constants, SolverPass};
 use super::spray::spray_left;
 use super::transfer::write;
 use super::{Solver, SolverError};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::sync::atomic::{AtomicBool, Ordering};
 use vitriol_gpu::{Buffer, Gpu, GpuError, QueueKind, Readback, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::{BubbleBefore, CensusRun, Limb};
@@ -19,7 +19,9 @@ use vitriol_shaders::{Library, sim};
 use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;
 
-pub use seen::{BubbleCount, Bubbling, Came, Census, Held, Moved, Place, Skin, SkinPart, Touching};
+pub use seen::{
+    BubbleCount, Bubbling, Came, Census, Held, Landed, Moved, Onto, Place, Skin, SkinPart, Touching,
+};
 
 /// Parts of skin that a look has at most: two hands of 28 bones, and a face.
 pub const MOST_LIMBS: usize = 64;
@@ -39,6 +41,8 @@ pub const LYING: f64 = 2.0;
 const PLACES: usize = 6;
 const WORDS: usize = 23;
 const MOVED_WORDS: usize = 3;
+const LANDINGS: usize = 64;
+const LANDING_WORDS: usize = 10;
 const WARMTHS: [f64; 2] = [-50.0, 350.0];
 const SUPERHEATS: [f64; 2] = [-350.0, 150.0];
 const VOLUMES: f64 = 8.0;
@@ -167,8 +171,13 @@ fn papers_boiling_point(parameters: &Parameters) -> f64 {
     }
 }
 
-/// Number of words of all tallies: those of each place, then those of each place and flask.
+/// Number of words of all tallies: those of each place, then those of each place and flask, then the drops that came to rest.
 fn words(flasks: usize) -> usize {
+    words_of_places(flasks) + 1 + LANDINGS * LANDING_WORDS
+}
+
+/// Number of words of each place, and of each place and flask.
+fn words_of_places(flasks: usize) -> usize {
     (flasks + PLACES) * (WORDS + flasks * MOVED_WORDS)
 }
 
@@ -301,6 +310,8 @@ impl CensusRecord {
         let tallies = self.tallies.get::<u32>()?;
         let units = &self.units;
         let places = WORDS * (units.flasks + PLACES);
+        let before = words_of_places(units.flasks).min(tallies.len());
+        let (tallies, of_landings) = tallies.split_at(before);
         let (of_places, of_moves) = tallies.split_at(places.min(tallies.len()));
         let (of_places, _) = of_places.as_chunks::<WORDS>();
         let (of_moves, _) = of_moves.as_chunks::<MOVED_WORDS>();
@@ -317,6 +328,7 @@ impl CensusRecord {
             floor: units.held(&row()),
             skin: [row(), row(), row()].map(|words| units.touching(&words)),
             moves: of_moves.iter().map(|words| units.moved(words)).collect(),
+            landed: units.landed(of_landings),
             sprayed: (0..units.flasks)
                 .map(|flask| units.volume * spray_left(quanta.get(flask)))
                 .collect(),
@@ -335,6 +347,35 @@ impl Units {
                 _ => f64::from(acid) / f64::from(volume),
             },
         }
+    }
+
+    /// The drops that came to rest, in an order that does not depend on the device's.
+    fn landed(&self, words: &[u32]) -> Vec<Landed> {
+        let Some((&count, words)) = words.split_first() else {
+            return Vec::new();
+        };
+        let (records, _) = words.as_chunks::<LANDING_WORDS>();
+        let mut records: Vec<_> = records.iter().take(count as usize).collect();
+        records.sort_unstable();
+        let landed = records.into_iter().filter_map(|words| {
+            let [onto, numbers @ ..] = *words;
+            let [x, y, z, a, b, c, volume, acid, celsius] = numbers.map(f32::from_bits);
+            let onto = match onto {
+                3 => Onto::Table,
+                4 => Onto::Floor,
+                skin => Onto::Skin(*Skin::ALL.get(skin as usize)?),
+            };
+            let warm = self.heated && matches!(onto, Onto::Skin(_));
+            Some(Landed {
+                onto,
+                position: Vec3::new(x, y, z),
+                way: Vec3::new(a, b, c),
+                volume: self.volume * f64::from(volume),
+                acid,
+                temperature: warm.then_some(celsius),
+            })
+        });
+        landed.collect()
     }
 
     fn touching(&self, words: &[u32; WORDS]) -> Touching {

@@ -17,7 +17,7 @@ use vitriol_tests::gpu;
 
 const FRAME: f64 = 1.0 / 90.0;
 
-fn look(gpu: &Gpu, solver: &Solver, skin: &[SkinPart]) -> Census {
+pub fn look(gpu: &Gpu, solver: &Solver, skin: &[SkinPart]) -> Census {
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     let record = solver.record_census(&mut rec, skin, FRAME).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
@@ -25,7 +25,7 @@ fn look(gpu: &Gpu, solver: &Solver, skin: &[SkinPart]) -> Census {
 }
 
 /// A glass, and beside it a table's edge and the floor below.
-fn over_all(setup: &mut Setup) {
+pub fn over_all(setup: &mut Setup) {
     setup.ground = Ground {
         floor: -0.10,
         table: Some((-0.004, DVec2::new(0.0, 0.0), DVec2::new(0.12, 0.2))),
@@ -403,8 +403,10 @@ fn thrown_drops_touch_skin_too() {
     look(&device, &solver, &skin);
     for _ in 0..8 {
         frames(&device, &solver, &[Pose::IDENTITY], 1);
-        let face = look(&device, &solver, &skin).skin[2];
+        let census = look(&device, &solver, &skin);
+        let face = census.skin[2];
         came.push(face.came.particles);
+        assert_eq!(census.landed.len(), face.came.particles as usize);
         if face.came.particles > 0 {
             assert!((face.came.acid - 0.8).abs() < 0.001, "{face:?}");
             // A hundredth of a particle's mass, at 1.5 times its density; a share is of 1/65,536 of eight volumes.

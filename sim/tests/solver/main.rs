@@ -17,6 +17,7 @@ mod effort;
 mod forces;
 mod handle;
 mod intensity;
+mod landed;
 mod leaning_glass;
 mod lifeline;
 mod limits;

@@ -103,6 +103,7 @@ impl Draw for Screen {
             particles: None,
             hands: [&[]; 2],
             tools: &[],
+            resting: &[],
             liquid: Some(LiquidSource {
                 // Surfaces are compared, without bubbles and drops.
                 bubbles: None,

@@ -108,7 +108,7 @@ fn said(instructions: &[(f64, Action)]) -> Result<Vec<InstructorStatement>, Fail
 }
 
 /// When acid and water first came together in the scene of the samples, which is that of the last attempt, s, and in which flask.
-fn contact<'a>(
+pub(super) fn contact<'a>(
     samples: &[Sample],
     scene: &'a Scene,
     attempts: &'a [Attempt],

@@ -324,6 +324,7 @@ impl Session {
             bones.extend(handle);
         }
 
+        let resting = (self.run.marks()).drawn(self.gloves.each_ref().map(Vec::as_slice));
         let tools = vitriol_run::tools(world, self.run.thermometer());
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
@@ -343,6 +344,7 @@ impl Session {
             inset: inset.map(|inset| outlook(inset.extent, &inset.views)),
             hands: drawn.each_ref().map(Vec::as_slice),
             tools: &tools,
+            resting: &resting,
             panel: Some(picture::panel(&image)),
             sign: sign.as_ref().map(Drawn::panel),
             shown,

@@ -20,6 +20,12 @@ var<immediate> run: FlightRun;
 /// See `FLYING` of `common/picture/spray_drops.wgsl`; 0 before.
 @group(0) @binding(2) var<storage, read_write> flying: array<atomic<u32>>;
 
+fn list_flight(n: u32) {
+    let place = atomicAdd(&flying[FLYING - 1u], 1u);
+    atomicStore(&flying[FLYING + place], n);
+    atomicMax(&flying[0], place * MOST_DROPS / FLIGHTS_GROUP + 1u);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let n = id.x;
@@ -27,7 +33,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         atomicStore(&flying[1], run.views);
         atomicStore(&flying[2], 1u);
     }
-    if (n >= run.count) { return; }
+    if (n >= run.count + RESTING) { return; }
+    if (n >= run.count) {
+        list_flight(n);
+        return;
+    }
     let from_ = drops[n];
     var flight = Flight(from_.position, from_.radius, vec3<f32>(0.0), 0u, from_.about);
     if (from_.mass > 0.0 && from_.radius > 0.0 && from_.density > 0.0) {
@@ -37,8 +47,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (speed > 0.0) { flight.direction = from_.velocity / speed; }
     }
     flights[n] = flight;
-    if (flight.drops == 0u) { return; }
-    let place = atomicAdd(&flying[FLYING - 1u], 1u);
-    atomicStore(&flying[FLYING + place], n);
-    atomicMax(&flying[0], place * MOST_DROPS / FLIGHTS_GROUP + 1u);
+    if (flight.drops > 0u) { list_flight(n); }
 }

@@ -120,6 +120,35 @@ pub struct Moved {
     pub acid: f64,
 }
 
+/// What a drop came to rest on.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Onto {
+    /// A user's skin, or what is worn on it.
+    Skin(Skin),
+    /// The table.
+    Table,
+    /// The floor.
+    Floor,
+}
+
+/// A drop that came to rest since the last look: harmful liquid that touched skin, of which each particle leaves one, or drops of a bubble
+/// that fell on table or floor. A particle that comes to table or floor lies there itself, and is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landed {
+    /// What it came to rest on.
+    pub onto: Onto,
+    /// Where it lies; where it touched skin, the place to which it came in the time of the look. In the stage, m of the scene.
+    pub position: Vec3,
+    /// Its way to there in the time of the look, m of the scene; 0 on table and floor.
+    pub way: Vec3,
+    /// Volume, m³ of the scene.
+    pub volume: f64,
+    /// Acid mass fraction.
+    pub acid: f32,
+    /// Temperature when it touched skin, °C; `None` elsewhere, and where no heat is modelled.
+    pub temperature: Option<f32>,
+}
+
 /// Bubbles of a flask, and those that were born, collapsed or burst since the last look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bubbling {
@@ -159,6 +188,8 @@ pub struct Census {
     pub skin: [Touching; 3],
     /// Liquid moved by place and flask, which [`Census::moved`] reads; empty where nothing moved.
     pub moves: Vec<Moved>,
+    /// Drops that came to rest since the last look; of more than 64 any 64.
+    pub landed: Vec<Landed>,
     /// By flask: volume of the drops of its bubbles that came to rest elsewhere since the start, m³ of the scene at rest density.
     pub sprayed: Vec<f64>,
 }
