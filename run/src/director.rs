@@ -7,7 +7,6 @@ use vitriol_render::{Fov, View};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 
-use crate::camera::tripod;
 use crate::run::LastSeen;
 use crate::scenery::affine;
 
@@ -37,6 +36,8 @@ const FOLLOWS: f64 = 0.5;
 /// A director of a scene's film.
 #[derive(Debug)]
 pub struct Director {
+    /// What shows the whole bench.
+    wide: View,
     /// The flask that is shown closely, and where its foot is, smoothed, m in the scene's stage.
     close: Option<(usize, Vec3)>,
     layered: Option<usize>,
@@ -52,10 +53,11 @@ pub struct Director {
 }
 
 impl Director {
-    /// At a scene's start; `None` of one at another size, whose tripod is close already.
-    pub fn of(scene: &Scene) -> Option<Self> {
+    /// At a scene's start, with the view of its bench; `None` of a scene at another size, whose tripod is close already.
+    pub fn of(scene: &Scene, wide: View) -> Option<Self> {
         let layered = layered(scene);
         (scene.scale.length_scale == 1.0).then(|| Self {
+            wide,
             close: None,
             layered: layered
                 .and_then(|name| scene.flasks.iter().position(|flask| flask.name == name)),
@@ -114,7 +116,7 @@ impl Director {
     /// Where the camera is, for pictures of this width over height.
     pub fn view(&self, scene: &Scene, aspect: f32) -> View {
         let Some((flask, foot)) = self.close else {
-            return tripod(scene, aspect);
+            return self.wide;
         };
         let profile = &scene.flasks[flask].profile;
         close_to(

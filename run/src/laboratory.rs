@@ -138,8 +138,10 @@ fn camera(
 }
 
 /// The director of a scene's film, where one was asked for.
-fn director(asked: bool, scene: &Scene) -> Option<Director> {
-    asked.then(|| Director::of(scene)).flatten()
+fn director(asked: bool, scene: &Scene, camera: Option<&Camera>) -> Option<Director> {
+    camera
+        .filter(|_| asked)
+        .and_then(|camera| Director::of(scene, camera.view))
 }
 
 /// A run and its picture on a device.
@@ -199,6 +201,7 @@ impl Laboratory {
         }
         Ok(Self {
             run: Run::new(setup.scene_name, world),
+            director: director(setup.directed, setup.scene, film.as_ref()),
             film,
             shot,
             preset: setup.preset,
@@ -206,7 +209,6 @@ impl Laboratory {
             switched: None,
             follows_head: setup.head.is_some(),
             directed: setup.directed,
-            director: director(setup.directed, setup.scene),
             inset: None,
             seed: setup.seed,
             shaders: setup.shaders.clone(),
@@ -288,7 +290,7 @@ impl Laboratory {
         let world = World::new(gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
         self.run.bring_up(action, world);
         self.film = camera(&self.run.world, &self.shaders, self.shot, &self.colours)?;
-        self.director = director(self.directed, &scene);
+        self.director = director(self.directed, &scene, self.film.as_ref());
         self.inset = None;
         (self.departures, self.start) = (Departures::default(), None);
         self.switched = Some(name.to_owned());

@@ -1,6 +1,7 @@
 //! From a track to film and report, with an experiment whose answers are known:
 //! what the loop, the observer and the report make of them.
 
+mod idle;
 mod toy;
 
 use std::cell::Cell;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 
 use vitriol::cli::{Cli, Command};
@@ -11,7 +12,7 @@ use vitriol_lesson::{Cause, Ending, Event, Incident, What};
 use vitriol_render::PassPicture;
 use vitriol_run::{
     Action, Blame, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
-    Judging, LedgerSample, MassByPlace, Outcome, Sample, Taken,
+    Judging, LedgerSample, MassByPlace, Outcome, Sample, Taken, Worth,
 };
 use vitriol_xr::PoseFrame;
 
@@ -25,6 +26,10 @@ pub(super) struct Toy {
     pub(super) hot: bool,
     /// Whether something is found.
     pub(super) finds: bool,
+    /// Steps in which nothing is worth showing.
+    pub(super) idle: Range<u64>,
+    /// The step that is most worth a poster.
+    pub(super) most: u64,
     pub(super) instructions: Vec<(f64, Action)>,
     pub(super) picture: Vec<u8>,
 }
@@ -82,6 +87,8 @@ impl Toy {
             fails_at,
             hot: false,
             finds: false,
+            idle: 0..0,
+            most: 0,
             instructions: Vec::new(),
             picture: Vec::new(),
         }
@@ -132,6 +139,13 @@ impl Experiment for Toy {
         let shade = (self.steps % 256) as u8;
         self.picture = [shade, 90, 160, 255].repeat(960 * 540);
         Ok(&self.picture)
+    }
+
+    fn worth(&self) -> Worth {
+        Worth {
+            shown: !self.idle.contains(&self.steps),
+            interest: -(self.steps.abs_diff(self.most) as f64),
+        }
     }
 
     fn heard(&mut self) -> Result<Heard, Failure> {

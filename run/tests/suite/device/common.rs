@@ -56,6 +56,7 @@ fn made(
         tint: None,
         room,
         head,
+        directed: false,
         look: None,
         shaders: Arc::new(shaders),
     };

@@ -62,7 +62,7 @@ impl Side {
             tint: args.drawn.tint,
             room: args.drawn.room,
             head: None,
-            directed: false,
+            directed: true,
             look: (plan.scene.scale.length_scale == 1.0).then_some(BENCH),
             shaders: Arc::new(Library::embedded()),
         })?;
