@@ -29,7 +29,11 @@ impl Caption {
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![self.title.clone()];
         lines.extend(self.hottest_c.map(|it| format!("hottest {it:.0} °C")));
-        lines.push(format!("thrown {:.1} g", 1e3 * self.thrown_kg));
+        // Cold acid throws tens of milligrams, hot acid grams.
+        lines.push(match 1e6 * self.thrown_kg {
+            mg if mg < 999.5 => format!("thrown {mg:.0} mg"),
+            mg => format!("thrown {:.1} g", 1e-3 * mg),
+        });
         lines
     }
 }
@@ -116,8 +120,10 @@ mod tests {
             hot.lines(),
             ["Water into acid", "hottest 103 °C", "thrown 1.3 g"]
         );
+        let spits = caption(Some(95.0), 68.7e-6);
+        assert_eq!(spits.lines()[2], "thrown 69 mg");
         let cold = caption(None, 0.0);
-        assert_eq!(cold.lines(), ["Water into acid", "thrown 0.0 g"]);
+        assert_eq!(cold.lines(), ["Water into acid", "thrown 0 mg"]);
         assert_eq!(title(""), "");
     }
 

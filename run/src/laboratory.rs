@@ -60,7 +60,7 @@ pub struct Setup<'a> {
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
-    /// Whether a [director](crate::director) leads the camera, and leaves out what shows nothing.
+    /// Whether a director (`director.rs`) leads the camera, and leaves out what shows nothing.
     pub directed: bool,
     /// Where a fixed camera is; `None` for the tripod.
     pub look: Option<Look>,

@@ -57,7 +57,7 @@ pub struct Observations {
     pub film_frames: u64,
     /// Where they go on at another simulated time; the first one is their begin. Empty without films.
     pub cuts: Vec<Cut>,
-    /// The first film's picture of the moment that is most [worth](Worth) it, of size [`FILM_SIZE`]; `None` without films.
+    /// The first film's picture of the moment that is most [worth](crate::Worth) it, of size [`FILM_SIZE`]; `None` without films.
     pub poster: Option<Vec<u8>>,
     /// Samples over time; the first is of the start, or of the first step after
     /// the last switch to a scene; the last is of the end.
