@@ -221,6 +221,13 @@ impl Camera {
         self.marks.clone_from(marks);
     }
 
+    /// Shows what another camera does: hands, drops and thermometer.
+    pub(crate) fn show_like(&mut self, other: &Self) {
+        self.hands.clone_from(&other.hands);
+        self.marks.clone_from(&other.marks);
+        self.celsius = other.celsius;
+    }
+
     /// The world as it is now, coloured by speed where it has not what is asked
     /// for: rows from the top, sRGB-encoded RGBA bytes.
     /// Waits for the device.

@@ -1,7 +1,7 @@
 //! The film's director: wide while somebody reaches and carries, close to the glass in which liquid meets liquid or boils; and which
 //! moments are worth showing.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 use vitriol_lesson::{Event, layered};
 use vitriol_render::{Fov, View};
 use vitriol_sim::scene::Scene;
@@ -30,6 +30,11 @@ const BELOW: f32 = 0.05;
 /// From a glass's foot to the eye of a student who sits at the bench, up and towards the user, m: eyes are 1.1 to 1.2 m above the floor
 /// then (sitting eye height 0.74 m over a stool of 0.4 m, NASA-STD-3000), and the bench is 0.75 m high.
 const EYE: Vec3 = Vec3::new(0.0, 0.37, 0.76);
+/// Where the glass's middle is in the picture's width, where that is more than its height: the inset is to the right of it.
+const ASIDE: f32 = 0.4;
+/// The eye goes aside by this angle, degrees, where the hand that holds the glass would be before it, within the other one.
+const TURNED: f32 = 70.0;
+const HIDES: f32 = 60.0;
 /// The camera follows a glass that is moved with this time constant, s: it lets a swirl be seen and shows no trembling.
 const FOLLOWS: f64 = 0.5;
 
@@ -40,6 +45,8 @@ pub struct Director {
     wide: View,
     /// The flask that is shown closely, and where its foot is, smoothed, m in the scene's stage.
     close: Option<(usize, Vec3)>,
+    /// How far the eye is turned about that glass, radians.
+    turn: f32,
     layered: Option<usize>,
     time: f64,
     /// When the camera's place changed last, s.
@@ -59,6 +66,7 @@ impl Director {
         (scene.scale.length_scale == 1.0).then(|| Self {
             wide,
             close: None,
+            turn: 0.0,
             layered: layered
                 .and_then(|name| scene.flasks.iter().position(|flask| flask.name == name)),
             time: 0.0,
@@ -70,11 +78,13 @@ impl Director {
         })
     }
 
-    /// Looks at the state after a step of `frame_time` (s), with the run's events so far.
+    /// Looks at the state after a step of `frame_time` (s), with the run's events so far and the places of the hands, m in the scene's
+    /// stage.
     pub fn observe(
         &mut self,
         world: &World,
         (seen, events): (&LastSeen, &[Event]),
+        hands: [Vec3; 2],
         frame_time: f64,
     ) {
         let found = |event: &&Event| matches!(event, Event::Poured(_) | Event::Incident(_));
@@ -101,6 +111,12 @@ impl Director {
         if wanted != now && self.time > self.changed + SHORTEST {
             self.close = wanted.map(|flask| (flask, world.poses()[flask].position));
             self.changed = self.time;
+            self.turn = wanted.map_or(0.0, |flask| {
+                let hand = world.holder(flask).filter(|hand| *hand < hands.len());
+                hand.map_or(0.0, |hand| {
+                    turn(hand, hands[hand] - world.poses()[flask].position)
+                })
+            });
         }
         if let Some((flask, foot)) = &mut self.close {
             let share = 1.0 - (-frame_time / FOLLOWS).exp();
@@ -122,8 +138,14 @@ impl Director {
         close_to(
             foot,
             [profile.rim_height(), profile.outer_radius()].map(|it| it as f32),
+            self.turn,
             aspect,
         )
+    }
+
+    /// How far the eye is turned about the glass that is seen closely, radians.
+    pub fn turned(&self) -> f32 {
+        self.turn
     }
 
     /// When it began to boil, s after the scene's start, and in which flask.
@@ -138,17 +160,31 @@ impl Director {
 }
 
 /// A glass of that height and radius (m) with its foot there, from the eyes of a student who sits before it.
-fn close_to(foot: Vec3, [height, radius]: [f32; 2], aspect: f32) -> View {
-    let eye = foot + EYE;
+fn close_to(foot: Vec3, [height, radius]: [f32; 2], turn: f32, aspect: f32) -> View {
+    let eye = foot + Quat::from_rotation_y(turn) * EYE;
     let middle = foot + 0.5 * height * Vec3::Y;
     let away = (middle - eye).normalize();
     // Its height is foreshortened, and its foot and rim are seen as ellipses.
     let fills = height * away.with_y(0.0).length() + 2.0 * radius * away.y.abs();
     let picture = fills / FILLED;
-    let up = away.cross(Vec3::Y).normalize().cross(away);
-    let target = middle + up * ((0.5 - BELOW - 0.5 * FILLED) * picture);
+    let right = away.cross(Vec3::Y).normalize();
+    let aside = if aspect > 1.0 { 0.5 - ASIDE } else { 0.0 };
+    let target = middle
+        + right.cross(away) * ((0.5 - BELOW - 0.5 * FILLED) * picture)
+        + right * (aside * aspect * picture);
     let field = 2.0 * (0.5 * picture / target.distance(eye)).atan();
     View::look_at(eye, target, Fov::symmetric(field, aspect))
+}
+
+/// How far the eye turns about a glass so that the hand that holds it, which is there from the glass's foot (m), is not before it: to the
+/// side that the arm does not come from.
+fn turn(hand: usize, from_foot: Vec3) -> f32 {
+    let before = from_foot.with_y(0.0).angle_between(Vec3::Z) < HIDES.to_radians();
+    match (before, hand) {
+        (false, _) => 0.0,
+        (true, 0) => TURNED.to_radians(),
+        (true, _) => -TURNED.to_radians(),
+    }
 }
 
 /// The flask with the most gas, of those that boil.
@@ -207,7 +243,7 @@ mod tests {
     fn a_glass_fills_two_thirds_of_the_picture() {
         let (height, radius) = (0.095_f32, 0.035_f32);
         let foot = Vec3::new(0.12, 0.75, -0.4);
-        let view = close_to(foot, [height, radius], 16.0 / 9.0);
+        let view = close_to(foot, [height, radius], 0.0, 16.0 / 9.0);
         let clip = view.clip_from_scaled(1.0);
         let ring = |level: f32| {
             (0..64).map(move |n| {
@@ -227,5 +263,16 @@ mod tests {
             "{lowest} {highest}"
         );
         assert!((0.5 * (1.0 - lowest) - BELOW).abs() < 0.03, "{lowest}");
+        let middle = clip.project_point3(foot + 0.5 * height * Vec3::Y);
+        assert!((0.5 * (1.0 + middle.x) - ASIDE).abs() < 0.01, "{middle}");
+    }
+
+    /// A right hand that grips a glass from the user's side is not before it for an eye to the left; one behind it hides nothing.
+    #[test]
+    fn a_hand_does_not_hide_what_it_holds() {
+        let eye = |turn: f32| (Quat::from_rotation_y(turn) * EYE).x;
+        assert!(eye(turn(1, Vec3::new(0.02, 0.05, 0.055))) < -0.5);
+        assert!(eye(turn(0, Vec3::new(-0.02, 0.05, 0.055))) > 0.5);
+        assert_eq!(turn(1, Vec3::new(0.0, 0.05, -0.055)), 0.0);
     }
 }

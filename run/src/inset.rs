@@ -1,6 +1,6 @@
 //! An inset of the film: the first second of boiling, at a quarter of its speed.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use vitriol_render::{Fov, View};
 use vitriol_shaders::Library;
 use vitriol_sim::world::World;
@@ -72,16 +72,26 @@ impl Inset {
         })
     }
 
-    /// Takes a picture of the state `now` (s after the scene's start), while it is one that is shown. Waits for the device.
+    /// Takes a picture of the state `now` (s after the scene's start), while it is one that is shown, with the hands and drops that the
+    /// film's camera shows, and the eye turned as its. Waits for the device.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn take(&mut self, world: &World, now: f64) -> Result<(), Failure> {
+    pub fn take(
+        &mut self,
+        world: &World,
+        (film, turn): (&Camera, f32),
+        now: f64,
+    ) -> Result<(), Failure> {
         if now <= self.from + SHOWS {
+            self.camera.show_like(film);
             // In a hand that swirls it stays in the picture's middle.
             let surface = world.poses()[self.flask].position + self.depth * Vec3::Y;
-            self.camera.view =
-                View::look_at(surface + EYE, surface, Fov::symmetric(self.field, 1.0));
+            self.camera.view = View::look_at(
+                surface + Quat::from_rotation_y(turn) * EYE,
+                surface,
+                Fov::symmetric(self.field, 1.0),
+            );
             let picture = self.camera.shoot_bare(world, Colour::Liquid)?;
             self.pictures.push((now, picture));
         }

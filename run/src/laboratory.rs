@@ -5,6 +5,7 @@ mod sampled;
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
@@ -307,14 +308,15 @@ impl Laboratory {
         Ok(())
     }
 
-    /// Has the director place the camera, and the first second of boiling kept for its inset.
-    fn direct(&mut self, frame_time: f64) -> Result<(), Failure> {
+    /// Has the director place the camera, and the first second of boiling kept for its inset; `hands` are their places, m near the scene's
+    /// own origin.
+    fn direct(&mut self, hands: [Vec3; 2], frame_time: f64) -> Result<(), Failure> {
         let (Some(director), Some(camera)) = (&mut self.director, &mut self.film) else {
             return Ok(());
         };
         let world = &self.run.world;
         let events = self.run.events();
-        director.observe(world, (self.run.seen(), events), frame_time);
+        director.observe(world, (self.run.seen(), events), hands, frame_time);
         let [width, height] = camera.renderer.extent();
         camera.view = director.view(world.scene(), width as f32 / height as f32);
         let wanted = self.colours.first() == Some(&Colour::Liquid) && Inset::fits([width, height]);
@@ -327,7 +329,7 @@ impl Laboratory {
             self.inset = Some(inset);
         }
         if let Some(inset) = &mut self.inset {
-            inset.take(world, director.time())?;
+            inset.take(world, (camera, director.turned()), director.time())?;
         }
         Ok(())
     }
@@ -348,12 +350,16 @@ impl Experiment for Laboratory {
         self.take_up_shaders();
         let anew = self.switch(&frame.scenario)?;
 
-        if let Some(camera) = &mut self.film
-            && self.follows_head
-        {
-            let near = stage::near_from_stage(frame, self.run.world.scene());
-            camera.follow(&near.stage_from_view);
-            camera.show_hands(near.hands);
+        let near = stage::near_from_stage(frame, self.run.world.scene());
+        let hands = near.hands.each_ref();
+        let hands = hands.map(|hand| hand.stage_from_grip.position);
+        if let Some(camera) = &mut self.film {
+            if self.follows_head {
+                camera.follow(&near.stage_from_view);
+            }
+            if self.follows_head || self.director.is_some() {
+                camera.show_hands(near.hands);
+            }
         }
         let frame_time = self.run.world.scene().scale.frame_time;
         self.run.step(QueueKind::Main, frame)?;
@@ -362,7 +368,7 @@ impl Experiment for Laboratory {
             drop(self.run.sounds());
         }
         self.collect(MOST_LOOKS)?;
-        self.direct(frame_time)?;
+        self.direct(hands, frame_time)?;
         Ok(Taken { frame_time, anew })
     }
 
