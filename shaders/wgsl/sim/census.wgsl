@@ -302,7 +302,6 @@ fn count_particle(i: u32) {
             if (((now | way) & bit & ~touched) != 0u) {
                 came(part, x, v, volume, acid, celsius);
                 moved(part, origin, volume, acid);
-                landed(whose, x, v * run.elapsed, vec3<f32>(volume, acid, celsius));
             }
         }
         touched |= now | way;

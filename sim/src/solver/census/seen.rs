@@ -131,8 +131,8 @@ pub enum Onto {
     Floor,
 }
 
-/// A drop that came to rest since the last look: harmful liquid that touched skin, of which each particle leaves one, or drops of a bubble
-/// that fell on table or floor. A particle that comes to table or floor lies there itself, and is none.
+/// Drops of a bubble that came to rest since the last look: harmful ones on skin, all on table and floor. A particle is none: it is liquid that
+/// runs on, or lies there itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landed {
     /// What it came to rest on.
