@@ -1,11 +1,11 @@
 //! The simulated world and its picture on a Vulkan device, as the loop drives
 //! them.
 
+mod directed;
 mod sampled;
 
 use std::sync::Arc;
 
-use glam::Vec3;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
@@ -29,6 +29,7 @@ use crate::scenes::Scenes;
 use crate::stage;
 use crate::track::key;
 
+use directed::director;
 use sampled::{by_flask, of_heat};
 
 /// What an experiment is made of.
@@ -136,13 +137,6 @@ fn camera(
         Camera::new(world.gpu(), library, world.scene(), &shot)
     };
     shot.map(of_world).transpose()
-}
-
-/// The director of a scene's film, where one was asked for.
-fn director(asked: bool, scene: &Scene, camera: Option<&Camera>) -> Option<Director> {
-    camera
-        .filter(|_| asked)
-        .and_then(|camera| Director::of(scene, camera.view))
 }
 
 /// A run and its picture on a device.
@@ -304,32 +298,6 @@ impl Laboratory {
         if let Some(camera) = &mut self.film {
             camera.show_temperature(self.run.thermometer());
             camera.show_marks(self.run.marks());
-        }
-        Ok(())
-    }
-
-    /// Has the director place the camera, and the first second of boiling kept for its inset; `hands` are their places, m near the scene's
-    /// own origin.
-    fn direct(&mut self, hands: [Vec3; 2], frame_time: f64) -> Result<(), Failure> {
-        let (Some(director), Some(camera)) = (&mut self.director, &mut self.film) else {
-            return Ok(());
-        };
-        let world = &self.run.world;
-        let events = self.run.events();
-        director.observe(world, (self.run.seen(), events), hands, frame_time);
-        let [width, height] = camera.renderer.extent();
-        camera.view = director.view(world.scene(), width as f32 / height as f32);
-        let wanted = self.colours.first() == Some(&Colour::Liquid) && Inset::fits([width, height]);
-        let (Some((from, flask)), true, Some(shot)) = (director.boils(), wanted, self.shot) else {
-            return Ok(());
-        };
-        if self.inset.is_none() {
-            let place = (flask, self.run.seen().flasks[flask].volume);
-            let inset = Inset::of(world, &self.shaders, shot, place, from)?;
-            self.inset = Some(inset);
-        }
-        if let Some(inset) = &mut self.inset {
-            inset.take(world, (camera, director.turned()), director.time())?;
         }
         Ok(())
     }

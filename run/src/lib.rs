@@ -61,7 +61,7 @@ pub use boiling::boiling;
 pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};
-pub use cutting::Cut;
+pub use cutting::{Cut, Cutting, FilmFrame};
 pub use device::DeviceStatement;
 pub use experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken, Worth};
 pub use failure::{Blame, Cause, Failure};

@@ -273,8 +273,6 @@ mod tests {
             position,
             way: Vec3::new(0.0, -0.03, 0.0),
             volume,
-            acid: 0.9,
-            temperature: Some(148.0),
         }
     }
 

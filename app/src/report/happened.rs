@@ -283,12 +283,8 @@ mod tests {
     fn acid_on_skin_is_said_before_anything_else() {
         let texts = Texts::english().unwrap();
         let mut attempt = Attempt {
-            begun_s: 0.0,
             scene: "water-into-acid".into(),
-            contents: Default::default(),
-            pours: Vec::new(),
-            incidents: Vec::new(),
-            ending: None,
+            ..Attempt::default()
         };
         let page = |attempt: &Attempt| {
             let score = Score::of(attempt, &Rubric::default(), &texts);

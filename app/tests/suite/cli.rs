@@ -276,12 +276,8 @@ fn who_is_forgotten_is_in_no_file() {
         command.arg("forget").args(arguments).output().unwrap()
     };
     let attempt = Attempt {
-        begun_s: 0.0,
         scene: "water-into-acid".into(),
-        contents: Default::default(),
-        pours: Vec::new(),
-        incidents: Vec::new(),
-        ending: None,
+        ..Attempt::default()
     };
     let attempts = [attempt].map(|attempt| Scored {
         attempt,

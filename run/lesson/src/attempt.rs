@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::event::{Contents, Ending, Event, Incident, Pour};
 
 /// What a student did from the start of a scene to its end, or to the next start.
-#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Attempt {
     /// When it began, simulated time of the run, s.
     pub begun_s: f64,

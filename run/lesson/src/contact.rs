@@ -120,12 +120,8 @@ mod tests {
             ..contact(Skin::Face, false, 1e-9)
         };
         let mut attempt = Attempt {
-            begun_s: 0.0,
-            scene: "scene".into(),
-            contents: Default::default(),
-            pours: Vec::new(),
             incidents: in_order.iter().rev().cloned().collect(),
-            ending: None,
+            ..Attempt::default()
         };
         attempt.incidents.insert(0, dropped);
         for gravest in &in_order {

@@ -66,7 +66,7 @@ const MOVED_ACID = 2u;
 
 /// Behind these: how many drops came to rest since the last look, and so many of them, in any order.
 const LANDINGS = 64u;
-const LANDING_WORDS = 10u;
+const LANDING_WORDS = 8u;
 /// Onto what, beside the numbers of whose skin.
 const ONTO_TABLE = 3u;
 const ONTO_FLOOR = 4u;
@@ -179,9 +179,9 @@ fn moved(place: u32, origin: u32, volume: f32, acid: f32) {
     atomicAdd(&tallies[index + MOVED_ACID], share(volume * acid, 0.0, VOLUMES));
 }
 
-/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), its volume over V0, acid and temperature. Those that find no
-/// place in the list are only not drawn.
-fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, liquid: vec3<f32>) {
+/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), and its volume over V0. Those that find no place in the list are
+/// only not drawn.
+fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, volume: f32) {
     let places = FLASKS + SKIN + SKINS;
     let base = places * WORDS + places * FLASKS * MOVED_WORDS;
     let n = atomicAdd(&tallies[base], 1u);
@@ -191,8 +191,8 @@ fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, liquid: vec3<f32>) {
     for (var k = 0u; k < 3u; k++) {
         atomicStore(&tallies[at + 1u + k], bitcast<u32>(x[k]));
         atomicStore(&tallies[at + 4u + k], bitcast<u32>(way[k]));
-        atomicStore(&tallies[at + 7u + k], bitcast<u32>(liquid[k]));
     }
+    atomicStore(&tallies[at + 7u], bitcast<u32>(volume));
 }
 
 /// A value's share of the way from `low` to `high`.
@@ -334,9 +334,7 @@ fn fallen_of(n: u32, before: f32) -> f32 {
     } else {
         return flight.fallen.x;
     }
-    let volume = mass * REST_DENSITY / flight.density;
-    // It takes the temperature of what it lies on at once.
-    landed(onto, x, vec3<f32>(0.0), vec3<f32>(volume, saturate(flight.acid / mass), 0.0));
+    landed(onto, x, vec3<f32>(0.0), mass * REST_DENSITY / flight.density);
     return flight.fallen.x;
 }
 
@@ -385,7 +383,7 @@ fn count_drops(n: u32) {
         let volume = flying.mass * REST_DENSITY / flying.density;
         came(FLASKS + SKIN + whose, flying.position, flying.velocity, volume, acid, celsius);
         moved(FLASKS + SKIN + whose, flying.memberships & 0xffffu, volume, acid);
-        landed(whose, flying.position, run.elapsed * flying.velocity, vec3<f32>(volume, acid, celsius));
+        landed(whose, flying.position, run.elapsed * flying.velocity, volume);
     }
 }
 

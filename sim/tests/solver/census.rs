@@ -25,7 +25,7 @@ pub fn look(gpu: &Gpu, solver: &Solver, skin: &[SkinPart]) -> Census {
 }
 
 /// A glass, and beside it a table's edge and the floor below.
-pub fn over_all(setup: &mut Setup) {
+fn over_all(setup: &mut Setup) {
     setup.ground = Ground {
         floor: -0.10,
         table: Some((-0.004, DVec2::new(0.0, 0.0), DVec2::new(0.12, 0.2))),
@@ -377,18 +377,17 @@ fn what_is_faster_than_looks_is_counted_too() {
     assert_eq!(came, 125);
 }
 
-/// Drops that bubbles threw are no particles: one that flies into a hand is counted in the frame in which it comes there.
-#[test]
-fn thrown_drops_touch_skin_too() {
-    let device = gpu::device();
+/// A glass of water over table and floor, and a drop of 80 % acid in the air, of a hundredth of a particle's mass, at 1.5 times its density.
+pub fn with_a_drop(device: &Gpu, position: [f32; 3], velocity: [f32; 3]) -> (Setup, Solver) {
     let profile = Profile::new(&[[0.0, 0.025], [0.06, 0.025]], 0.002).unwrap();
     let liquid = water(&profile, 0, at(0.0, 0.0, 0.0), 300);
-    let setup = Setup::new(of(spraying(bubbly()), parameters()), vec![profile], liquid);
-    let solver = setup.solver(&device);
+    let mut setup = Setup::new(of(spraying(bubbly()), parameters()), vec![profile], liquid);
+    over_all(&mut setup);
+    let solver = setup.solver(device);
     let mut state = solver.snapshot().unwrap();
     state.drops_mut()[4] = Drops {
-        position: [0.1, 0.1, 0.0],
-        velocity: [1.0, 0.0, 0.0],
+        position,
+        velocity,
         mass: 0.01,
         acid: 0.008,
         radius: 1e-4,
@@ -397,6 +396,14 @@ fn thrown_drops_touch_skin_too() {
         ..Drops::default()
     };
     solver.restore(&state).unwrap();
+    (setup, solver)
+}
+
+/// Drops that bubbles threw are no particles: one that flies into a hand is counted in the frame in which it comes there.
+#[test]
+fn thrown_drops_touch_skin_too() {
+    let device = gpu::device();
+    let (setup, solver) = with_a_drop(&device, [0.1, 0.1, 0.0], [1.0, 0.0, 0.0]);
     let x = Vec3::new(0.14, 0.1, 0.0);
     let skin = [hand(Skin::Face, x, x + 0.05 * Vec3::Z)];
     let mut came = Vec::new();
@@ -409,7 +416,7 @@ fn thrown_drops_touch_skin_too() {
         assert_eq!(census.landed.len(), face.came.particles as usize);
         if face.came.particles > 0 {
             assert!((face.came.acid - 0.8).abs() < 0.001, "{face:?}");
-            // A hundredth of a particle's mass, at 1.5 times its density; a share is of 1/65,536 of eight volumes.
+            // A share is of 1/65,536 of eight volumes.
             let volume = face.came.volume / setup.parameters.particle_volume();
             assert!((volume - 0.01 / 1.5).abs() < 1e-4, "{volume}");
         }

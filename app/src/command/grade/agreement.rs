@@ -226,12 +226,10 @@ mod tests {
 
     fn attempt(pours: Vec<Pour>, incidents: Vec<Incident>) -> Attempt {
         Attempt {
-            begun_s: 0.0,
             scene: "acid-into-water".into(),
-            contents: BTreeMap::new(),
             pours,
             incidents,
-            ending: None,
+            ..Attempt::default()
         }
     }
 

@@ -79,7 +79,7 @@ pub fn make(
         filter: None,
         tint: None,
         room: None,
-        // Hands show how it is done, and only the head's view shows hands.
+        // A lesson is seen as the student sees it, in full.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         directed: false,
         look: None,

@@ -9,8 +9,8 @@ use vitriol_run::output::{COMPARE_FILM, COMPARE_JSON, COMPARE_PICTURE, OutDir};
 use vitriol_run::progress::Runs;
 use vitriol_run::units::{mass, three_digits, with_unit};
 use vitriol_run::{
-    Blame, DeviceStatement, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Setup, emit,
-    in_a_line,
+    Blame, Cut, DeviceStatement, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Setup,
+    emit, in_a_line,
 };
 
 use crate::cli::ReplayArgs;
@@ -32,9 +32,9 @@ struct Compared {
     preset: &'static str,
     seed: u64,
     device: DeviceStatement,
-    /// Simulated time of the film's first frame, s.
-    film_from_s: f64,
     film_frames: u64,
+    /// Where the film goes on at another simulated time; the first one is its begin.
+    cuts: Vec<Cut>,
     /// The left one and the right one.
     scenes: Vec<Measured>,
 }
@@ -116,23 +116,21 @@ pub(super) fn run(
         }
         progress.at(&sides[0].time());
         let said = sides.each_ref().map(Side::caption);
-        let begun = sides.iter().any(Side::has_begun);
+        let shown = sides.iter().any(Side::is_shown);
         let [left, right] = &mut sides;
         let pictures = [left.picture()?, right.picture()?];
         let mut picture = captions::side_by_side(pictures, HALF[0] as usize);
         let time = number as f64 / f64::from(FILM_FPS);
         captions::draw(&mut picture, width as usize, &said, time);
-        reel.take(picture, begun)?;
+        reel.take(number, picture, shown)?;
     }
     for side in &mut sides {
         side.end()?;
     }
     progress.at(&sides[0].time());
-    reel.let_go()?;
-    let film_from_s = reel.cut as f64 / f64::from(FILM_FPS);
-    let film_frames = reel.frames;
-    out.adopt(reel.film.finish().other()?);
-    out.write(COMPARE_PICTURE, &reel.animated.finish()?)?;
+    let reeled = reel.finish()?;
+    out.adopt(reeled.film);
+    out.write(COMPARE_PICTURE, &reeled.animated)?;
 
     let mut device = DeviceStatement::default();
     let mut scenes = Vec::new();
@@ -147,8 +145,8 @@ pub(super) fn run(
         preset,
         seed,
         device,
-        film_from_s,
-        film_frames,
+        film_frames: reeled.frames,
+        cuts: reeled.cuts,
         scenes,
     };
     out.write(COMPARE_JSON, &serde_json::to_vec_pretty(&compared).other()?)?;
@@ -190,11 +188,7 @@ fn describe(told: &Told<'_>) -> String {
         lines.push(format!("{name:wide$}  {}", said.join(", ")));
     }
     lines.push(String::new());
-    lines.push(format!(
-        "film    {} (from {} s on, without sound)",
-        told.film,
-        three_digits(compared.film_from_s)
-    ));
+    lines.push(format!("film    {} (without sound)", told.film));
     lines.push(format!("picture {}", told.picture));
     lines.push(format!("numbers {}", told.compare_json));
     lines.join("\n")

@@ -128,9 +128,9 @@ impl Side {
         self.experiment.picture(0)
     }
 
-    /// Whether liquid has left a flask, on its way to the other liquid, or lies on it from the start.
-    pub(super) fn has_begun(&self) -> bool {
-        self.poured.is_some() || layered(&self.scene).is_some()
+    /// Whether something happens.
+    pub(super) fn is_shown(&self) -> bool {
+        self.experiment.worth().shown
     }
 
     fn thrown_kg(&self) -> f64 {
