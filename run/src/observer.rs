@@ -38,7 +38,7 @@ pub struct Observer {
     cutting: Cutting,
     /// The last picture of each film.
     last: Vec<Vec<u8>>,
-    poster: Option<(f64, Vec<u8>)>,
+    posters: Option<(f64, Vec<Vec<u8>>)>,
     samples: Vec<Sample>,
     /// Number of the last sample's time.
     sampled: Option<u64>,
@@ -57,8 +57,8 @@ pub struct Observations {
     pub film_frames: u64,
     /// Where they go on at another simulated time; the first one is their begin. Empty without films.
     pub cuts: Vec<Cut>,
-    /// The first film's picture of the moment that is most [worth](crate::Worth) it, of size [`FILM_SIZE`]; `None` without films.
-    pub poster: Option<Vec<u8>>,
+    /// Each film's picture of the moment that is most [worth](crate::Worth) it, of size [`FILM_SIZE`].
+    pub posters: Vec<Vec<u8>>,
     /// Samples over time; the first is of the start, or of the first step after
     /// the last switch to a scene; the last is of the end.
     pub samples: Vec<Sample>,
@@ -81,7 +81,7 @@ impl Observer {
             newest: VecDeque::new(),
             cutting: Cutting::default(),
             last: Vec::new(),
-            poster: None,
+            posters: None,
             samples: Vec::new(),
             sampled: None,
             scenes_before: 0,
@@ -119,7 +119,7 @@ impl Observer {
             films: films.other()?,
             film_frames: self.cutting.shown(),
             cuts: self.cutting.cuts(),
-            poster: self.poster.map(|(_, picture)| picture),
+            posters: self.posters.map_or_else(Vec::new, |(_, pictures)| pictures),
             samples: self.samples,
             scenes_before: self.scenes_before,
             time: self.time,
@@ -168,13 +168,10 @@ impl Observer {
             let shots = self.cutting.push(shot, FILM_FPS);
             self.show(shots)?;
         }
-        if self
-            .poster
-            .as_ref()
-            .is_none_or(|(most, _)| worth.interest >= *most)
-            && let Some(picture) = self.newest.iter().find_map(|shot| shot.pictures.first())
-        {
-            self.poster = Some((worth.interest, picture.clone()));
+        let most = self.posters.as_ref().map(|(interest, _)| *interest);
+        let newest = self.newest.iter().find(|it| !it.pictures.is_empty());
+        if let Some(newest) = newest.filter(|_| most.is_none_or(|most| worth.interest >= most)) {
+            self.posters = Some((worth.interest, newest.pictures.clone()));
         }
         Ok(())
     }

@@ -21,8 +21,8 @@ pub const INCIDENTS_CSV: &str = "incidents.csv";
 pub const STATEMENTS: &str = "statements.jsonl";
 /// The film's name in the output folder.
 pub const FILM: &str = "film.mp4";
-/// Name of the picture that stands for the film until it is played.
-pub const POSTER: &str = "film.png";
+/// Names of the pictures that stand for film and film of temperature until they are played.
+pub const POSTERS: [&str; 2] = ["film.png", "film-temperature.png"];
 /// The name of the film coloured by temperature.
 pub const FILM_TEMPERATURE: &str = "film-temperature.mp4";
 /// The name of the film of two scenes side by side.

@@ -13,7 +13,7 @@ use serde::Serialize;
 use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Event, Score, Texts, incidents_csv};
 use vitriol_run::output::{
-    self, ColorType, FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, POSTER, REPORT_HTML,
+    self, ColorType, FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, POSTERS, REPORT_HTML,
     REPORT_JSON,
 };
 use vitriol_run::progress::Runs;
@@ -216,7 +216,7 @@ fn replay(
         &mut observer,
     )?;
     let mut observations = observer.finish()?;
-    let poster = observations.poster.take();
+    let posters = std::mem::take(&mut observations.posters);
     for film in &observations.films {
         out.adopt(film.clone());
     }
@@ -238,15 +238,15 @@ fn replay(
         seed,
         (&scene_name, &scene),
         outcome,
-        (observations, poster.is_some()),
+        observations,
     )?;
     report.recording = recording;
     report.lesson = retold.unwrap_or_default();
     let texts = Texts::english().other()?;
     report.judge(&rubric, &texts);
-    if let Some(picture) = poster {
-        let file = output::png(&picture, FILM_SIZE, ColorType::Rgba)?;
-        out.write(POSTER, &file)?;
+    for (name, picture) in POSTERS.iter().zip(&posters) {
+        let file = output::png(picture, FILM_SIZE, ColorType::Rgba)?;
+        out.write(name, &file)?;
     }
     // The page first and the numbers last: a folder with `report.json` is a whole run.
     out.write(REPORT_HTML, report.to_html(&texts).as_bytes())?;

@@ -14,7 +14,7 @@ use crate::report::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, Report, SceneStatement,
     SolverStatement,
 };
-use vitriol_run::output::POSTER;
+use vitriol_run::output::POSTERS;
 use vitriol_run::texts::Texts;
 
 /// The report, without its part on the recording and without its score.
@@ -28,7 +28,7 @@ pub(super) fn assemble(
     seed: u64,
     (name, scene): (&str, &Scene),
     outcome: Outcome,
-    (observations, poster): (Observations, bool),
+    observations: Observations,
 ) -> Result<Report, Failure> {
     let samples = &observations.samples;
     // The filling is not the solver's work, so the start does not count.
@@ -44,7 +44,7 @@ pub(super) fn assemble(
             frames: observations.film_frames,
             colour: colour.name().into(),
             cuts: observations.cuts.clone(),
-            poster: (index == 0 && poster).then(|| POSTER.into()),
+            poster: POSTERS.get(index).map(|name| (*name).into()),
         })
     };
     let attempts = Attempt::all(outcome.events);
