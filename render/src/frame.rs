@@ -228,6 +228,10 @@ impl FrameDesc<'_> {
             pane_from_stage: pane_from_stage(self.pane, self.length_scale),
             ..layout::Frame::default()
         };
+        for (slot, plate) in frame.plates.iter_mut().zip(&scene.plates) {
+            let [x, z] = plate.middle;
+            *slot = [x, z, plate.radius, 0.0];
+        }
         let whole = self.part_of.unwrap_or(self.views);
         for ((slot, view), whole) in frame.views.iter_mut().zip(self.views).zip(whole) {
             *slot = eye(view, self.length_scale, extent);

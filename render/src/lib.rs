@@ -72,7 +72,7 @@ pub use print::Label;
 pub use readback::PictureReadback;
 pub use renderer::Renderer;
 pub use resting::{MOST_RESTING, RestingDrop};
-pub use scene::{BoxDesc, SceneDesc, ShardDesc, VesselDesc};
+pub use scene::{BoxDesc, PlateDesc, SceneDesc, ShardDesc, VesselDesc};
 pub use source::{
     BubbleSource, LiquidSource, Neighbours, ParticleSource, SpraySource, SteamSource, VesselTables,
 };

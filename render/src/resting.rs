@@ -5,6 +5,7 @@ use vitriol_gpu::{Buffer, CopyRegion, Gpu, GpuError, Recorder, bytes_of_elements
 use vitriol_shaders::layout;
 
 use crate::spray::Flights;
+use crate::tints;
 
 /// Most drops that lie where they came to rest, as in `common/picture/spray_drops.wgsl`.
 pub const MOST_RESTING: usize = 128;
@@ -16,6 +17,9 @@ pub struct RestingDrop {
     pub position: Vec3,
     /// Its radius, metres.
     pub radius: f32,
+    /// Its acid mass fraction, by which it has the liquids' tints as a legend shows them: by those of its own width no drop could be told from
+    /// another. `None` for a clear drop.
+    pub acid: Option<f32>,
 }
 
 /// Puts them behind the flights that a frame draws.
@@ -43,6 +47,8 @@ impl Resting {
                 position: (drop.position / length_scale).to_array(),
                 radius: drop.radius / length_scale,
                 drops: 1,
+                acid: drop.acid.unwrap_or(0.0),
+                tinted: drop.acid.map_or(0.0, |_| tints::PATH),
                 ..layout::Flight::default()
             };
         }

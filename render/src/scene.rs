@@ -135,6 +135,15 @@ pub struct BoxDesc {
     pub max: Vec3,
 }
 
+/// A round hot plate that is let into the table's top, in the scene's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlateDesc {
+    /// Its middle: x and z in the stage.
+    pub middle: [f32; 2],
+    /// Its radius.
+    pub radius: f32,
+}
+
 /// The parts of a picture that do not change from frame to frame, in the scene's unit (metres, or as the frame's `length_scale` defines
 /// it).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -143,6 +152,8 @@ pub struct SceneDesc {
     pub vessels: Vec<VesselDesc>,
     /// The bench.
     pub table: Option<BoxDesc>,
+    /// Hot plates in its top; of more than 8 the first.
+    pub plates: Vec<PlateDesc>,
     /// The room, seen from within: floor, walls and ceiling.
     pub room: Option<BoxDesc>,
     /// Brightness of the room.
@@ -166,6 +177,7 @@ impl SceneDesc {
         Self {
             vessels,
             table: box_of([-0.8, table_top - 0.04, -0.78], [0.8, table_top, -0.12]),
+            plates: Vec::new(),
             room: box_of([-1.6, 0.0, -1.7], [2.4, 2.7, 2.4]),
             light: RoomLight::DAY,
             furnished: true,
@@ -186,6 +198,7 @@ pub(crate) struct Scene {
     /// Segments and marks of all vessels.
     pub(crate) outlines: Buffer,
     pub(crate) table: Option<BoxDesc>,
+    pub(crate) plates: Vec<PlateDesc>,
     pub(crate) room: Option<BoxDesc>,
     pub(crate) light: RoomLight,
     pub(crate) furnished: bool,
@@ -225,6 +238,7 @@ impl Scene {
             vessels,
             outlines,
             table: desc.table,
+            plates: desc.plates.clone(),
             room: desc.room,
             light: desc.light,
             furnished: desc.furnished,

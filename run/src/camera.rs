@@ -140,8 +140,10 @@ pub struct Camera {
     hands: [Hand; 2],
     /// What a thermometer shows, °C.
     celsius: f64,
-    /// Drops that lie where they came to rest.
+    /// Drops that lie where they came to rest, and splashes on the goggles.
     marks: Marks,
+    /// Whether it is where the user's eyes are, behind the goggles.
+    is_head: bool,
 }
 
 impl Camera {
@@ -182,11 +184,14 @@ impl Camera {
             hands: Default::default(),
             celsius: 20.0,
             marks: Marks::default(),
+            is_head: false,
         })
     }
 
-    /// Puts the camera where a head is: `stage_from_view`, in real metres.
+    /// Puts the camera where a head is: `stage_from_view`, in real metres. Pictures of the liquid then have the splashes on the goggles;
+    /// in colours of an attribute these would be read as values of it.
     pub fn follow(&mut self, stage_from_view: &vitriol_xr::Pose) {
+        self.is_head = true;
         let [width, height] = self.renderer.extent();
         self.view = View {
             stage_from_eye: Affine3A::from_rotation_translation(
@@ -216,7 +221,7 @@ impl Camera {
         self.celsius = celsius;
     }
 
-    /// Shows these drops where they came to rest.
+    /// Shows these drops where they came to rest, and the splashes on the goggles where it is behind them.
     pub fn show_marks(&mut self, marks: &Marks) {
         self.marks.clone_from(marks);
     }
@@ -348,7 +353,10 @@ impl Camera {
             sign: None,
             pane: pane(world),
             shown: 1.0,
-            goggles: 0.0,
+            goggles: match self.is_head && liquid.is_some() {
+                true => self.marks.goggles(),
+                false => 0.0,
+            },
             part_of: None,
             foveation: self.foveation,
             colour_by,

@@ -1,4 +1,5 @@
-//! Drops that stay where they came to rest: on gloves and bare hands, which they go along with, on bench and floor.
+//! Drops that stay where they came to rest: on gloves and bare hands, which they go along with, on bench and floor; and splashes on the
+//! goggles.
 //!
 //! They are made of what observations list, some steps after it happened, and nothing that is simulated depends on them.
 
@@ -8,7 +9,7 @@ use glam::{Mat3, Vec3};
 use vitriol_render::{Bone, MOST_RESTING, RestingDrop};
 use vitriol_sim::bodies::Worn;
 use vitriol_sim::scene::ToolKind;
-use vitriol_sim::solver::{Census, Landed, Onto, Skin};
+use vitriol_sim::solver::{Census, HARMFUL, Landed, Onto, Skin};
 use vitriol_sim::world::World;
 
 use crate::hands::ACROSS;
@@ -21,6 +22,12 @@ const LEAST: f64 = 1e-13;
 const RINSES: f64 = 10.0;
 /// Places on the way of a drop at which it is looked for in a hand: at 3 m/s 2 mm apart. Chosen.
 const LOOKS: u32 = 16;
+
+/// Liquid times its acid fraction that covers the goggles, m³: a drop of 0.05 mL leaves a stain a centimetre wide, and goggles have some
+/// twenty of those. Chosen.
+const COVERED: f64 = 1e-6;
+/// The share of the goggles that any acid covers: one of the six splashes that are drawn.
+const LEAST_COVERED: f64 = 1.0 / 6.0;
 
 /// Where a drop lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +53,8 @@ struct Mark {
     lies: Lies,
     /// m³ at real size.
     volume: f64,
+    /// Acid mass fraction.
+    acid: f32,
 }
 
 impl Mark {
@@ -78,6 +87,8 @@ impl Mark {
 pub struct Marks {
     /// At most [`MOST_RESTING`], the largest ones.
     marks: Vec<Mark>,
+    /// Liquid times its acid fraction that came to the face, m³ at real size; `None` before any did.
+    face: Option<f64>,
     /// What the user wears.
     worn: Worn,
 }
@@ -89,13 +100,19 @@ impl Marks {
         for (skin, touching) in Skin::ALL.into_iter().zip(&census.skin) {
             self.rinse(skin as usize, real * touching.rinsed);
         }
+        let face = &census.skin[Skin::Face as usize].came;
+        // Hot water leaves no splash.
+        if face.particles > 0 && face.acid >= HARMFUL {
+            *self.face.get_or_insert(0.0) += real * face.volume * face.acid;
+        }
         for landed in &census.landed {
             let volume = real * landed.volume;
             let Some(lies) = lies(landed, hands, length_scale as f32) else {
                 continue;
             };
             if volume >= LEAST {
-                self.add(Mark { lies, volume }, hands);
+                let acid = landed.acid;
+                self.add(Mark { lies, volume, acid }, hands);
             }
         }
         if self.marks.len() > MOST_RESTING {
@@ -113,7 +130,11 @@ impl Marks {
             _ => false,
         };
         match self.marks.iter_mut().find(|mark| covers(mark)) {
-            Some(under) => under.volume = (under.volume + new.volume).min(HOLDS),
+            Some(under) => {
+                let volume = under.volume + new.volume;
+                under.acid += (new.volume / volume) as f32 * (new.acid - under.acid);
+                under.volume = volume.min(HOLDS);
+            }
             None => self.marks.push(Mark {
                 volume: new.volume.min(HOLDS),
                 ..new
@@ -145,6 +166,15 @@ impl Marks {
         }
     }
 
+    /// How much of the goggles is covered, 0 to 1: a splash of six at once; nothing is seen through while they are off.
+    pub fn goggles(&self) -> f32 {
+        let worn = self.worn.goggles != Some(false);
+        let face = self.face.filter(|_| worn);
+        face.map_or(0.0, |acid| {
+            (acid / COVERED).clamp(LEAST_COVERED, 1.0) as f32
+        })
+    }
+
     /// The cloths of `world` take off what they lie on.
     pub fn wiped(&mut self, world: &World) {
         let scale = world.scene().scale.length_scale as f32;
@@ -171,6 +201,7 @@ impl Marks {
             Some(RestingDrop {
                 position: mark.place(hands)?,
                 radius: cap_radius(mark.volume) as f32,
+                acid: Some(mark.acid),
             })
         });
         drawn.collect()
@@ -197,7 +228,7 @@ fn apart(bone: &Bone, at: Vec3) -> f32 {
     at.distance(axis) - (a + share * (b - a))
 }
 
-/// Where a drop lies that came to rest; `None` in the face, whose goggles are before the eyes.
+/// Where a drop lies that came to rest; `None` in the face, where [`Marks::goggles`] shows it.
 fn lies(landed: &Landed, hands: [&[Bone]; 2], scale: f32) -> Option<Lies> {
     let to = scale * landed.position;
     let hand = match landed.onto {
@@ -257,6 +288,7 @@ mod tests {
     use super::*;
     use glam::Quat;
     use vitriol_render::Finish;
+    use vitriol_sim::solver::Came;
 
     fn bone(ends: [Vec3; 2]) -> Bone {
         Bone {
@@ -273,6 +305,7 @@ mod tests {
             position,
             way: Vec3::new(0.0, -0.03, 0.0),
             volume,
+            acid: 0.0,
         }
     }
 
@@ -326,6 +359,36 @@ mod tests {
         assert_eq!(marks.drawn([&[], &hand]), []);
     }
 
+    /// 0.3 mL of 50 % to the face, in a scene twice as large as real, are 0.15 mL of acid: less than one splash of six has. Ten times as much
+    /// covers all. Water leaves none, and nothing is seen through goggles that are off.
+    #[test]
+    fn acid_in_the_face_covers_the_goggles() {
+        let mut marks = Marks::default();
+        let splash = |marks: &mut Marks, acid: f64, volume: f64| {
+            let mut census = Census::default();
+            census.skin[Skin::Face as usize].came = Came {
+                particles: 1,
+                volume: 8.0 * volume,
+                acid,
+                ..Came::default()
+            };
+            marks.take(&census, [&[], &[]], 0.5);
+            marks.goggles()
+        };
+        assert_eq!(splash(&mut marks, 0.0, 1e-6), 0.0);
+        assert_eq!(splash(&mut marks, 0.5, 0.3e-6), 1.0 / 6.0);
+        let half = splash(&mut marks, 0.5, 0.7e-6);
+        assert!((half - 0.5).abs() < 1e-6, "{half}");
+        assert_eq!(splash(&mut marks, 0.5, 3e-6), 1.0);
+        for (on, seen) in [(Some(false), 0.0), (Some(true), 1.0), (None, 1.0)] {
+            marks.wears(Worn {
+                goggles: on,
+                gloves: None,
+            });
+            assert_eq!(marks.goggles(), seen, "{on:?}");
+        }
+    }
+
     /// More drops than are drawn: the largest stay, and a cloth takes off those that it lies on.
     #[test]
     fn the_largest_stay_until_they_are_wiped() {
@@ -340,6 +403,23 @@ mod tests {
         marks.wipe([at(number - 1), at(number - 1) + 0.02 * Vec3::Y], 0.035);
         // Of those 1 cm apart the last four.
         assert_eq!(marks.drawn([&[], &[]]).len(), MOST_RESTING - 4);
+    }
+
+    /// Two parts of water and one of acid of 90 % by volume: 30 %.
+    #[test]
+    fn a_drop_has_the_acid_of_what_fell_there() {
+        let at = Vec3::new(0.0, 0.75, 0.0);
+        let acid = Landed {
+            acid: 0.9,
+            ..drop(Onto::Table, at, 5e-9)
+        };
+        let mut marks = Marks::default();
+        marks.take(&census(vec![drop(Onto::Table, at, 1e-8)]), [&[], &[]], 1.0);
+        marks.take(&census(vec![acid]), [&[], &[]], 1.0);
+        let [lies] = marks.drawn([&[], &[]])[..] else {
+            unreachable!("one drop")
+        };
+        assert!((lies.acid.unwrap() - 0.3).abs() < 1e-6, "{lies:?}");
     }
 
     /// What falls on a drop joins it, up to a drop's 0.05 mL; ten times as much water takes it off a hand.

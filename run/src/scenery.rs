@@ -2,8 +2,8 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
-    BoxDesc, BubbleSource, Label, LiquidDesc, LiquidSource, Neighbours, RoomLight, SceneDesc,
-    ShardDesc, SpraySource, SurfaceFilter, Tint, VesselDesc, VesselTables,
+    BoxDesc, BubbleSource, Label, LiquidDesc, LiquidSource, Neighbours, PlateDesc, RoomLight,
+    SceneDesc, ShardDesc, SpraySource, SurfaceFilter, Tint, VesselDesc, VesselTables,
 };
 use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
@@ -164,6 +164,33 @@ fn label(scene: &Scene, index: usize, flask: &Flask) -> Option<Label> {
     })
 }
 
+/// Least radius of a hot plate, and how much wider than its vessel it is at least, m: 135 mm across, as laboratories' round ones are.
+const PLATE: f64 = 0.0675;
+const PLATE_BESIDE: f64 = 0.025;
+/// How far a flask's base may be from the bench to stand on it, m.
+const STANDS: f64 = 0.005;
+
+/// The hot plates of the flasks that stand on the table at the start.
+fn plates(scene: &Scene) -> Vec<PlateDesc> {
+    let Some(table) = scene.table else {
+        return Vec::new();
+    };
+    let scale = scene.scale.length_scale;
+    let stands = |flask: &&Flask| {
+        let base = f64::from(flask.stage_from_flask.position.y);
+        flask.plate && is_upright(flask) && scale * (base - table.top).abs() < STANDS
+    };
+    let plate = |flask: &Flask| {
+        let middle = flask.stage_from_flask.position;
+        let radius = flask.profile.outer_radius() + PLATE_BESIDE / scale;
+        PlateDesc {
+            middle: [middle.x, middle.z],
+            radius: radius.max(PLATE / scale) as f32,
+        }
+    };
+    scene.flasks.iter().filter(stands).map(plate).collect()
+}
+
 /// The scene's vessels on their table in the room.
 pub fn laboratory(scene: &Scene) -> SceneDesc {
     let bare = scene.picture.room == PictureRoom::Bare;
@@ -185,6 +212,7 @@ pub fn laboratory(scene: &Scene) -> SceneDesc {
     let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
     SceneDesc {
         table: table(scene),
+        plates: if bare { Vec::new() } else { plates(scene) },
         light: match scene.picture.room {
             PictureRoom::Day | PictureRoom::Bare => RoomLight::DAY,
             PictureRoom::Bright => RoomLight::BRIGHT,
@@ -253,6 +281,26 @@ mod tests {
             }
         }
         assert!(numbers > 50, "{numbers}");
+    }
+
+    /// A plate that heats, and one that left the acid hot, are about the middle of their beaker and wider than it. What hangs over the bench
+    /// stands on none.
+    #[test]
+    fn a_hot_plate_is_under_its_beaker() {
+        for (name, stands) in [("hot-acid", 1), ("hot-acid-85", 1), ("boiling-water", 0)] {
+            let mut scene = Scene::builtin(name).unwrap();
+            let plates = laboratory(&scene).plates;
+            assert_eq!(plates.len(), 1, "{name}");
+            let flask = &mut scene.flasks[stands];
+            let at = flask.stage_from_flask.position;
+            assert_eq!(plates[0].middle, [at.x, at.z], "{name}");
+            let beside = f64::from(plates[0].radius) - flask.profile.outer_radius();
+            assert!(beside > 0.02, "{name}: {beside}");
+            flask.stage_from_flask.position.y += 0.05;
+            assert_eq!(laboratory(&scene).plates, [], "{name}");
+        }
+        let cold = Scene::builtin("water-into-acid").unwrap();
+        assert_eq!(laboratory(&cold).plates, []);
     }
 
     /// A vessel that holds liquid at the start is labelled with it; a funnel and an empty beaker have no label.

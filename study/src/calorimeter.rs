@@ -333,6 +333,7 @@ impl Vessel {
                 fixed: true,
                 contact_angle: GLASS,
                 heater: 0.0,
+                plate: false,
             }],
             liquids: feeds
                 .iter()

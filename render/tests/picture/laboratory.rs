@@ -3,7 +3,7 @@
 
 use crate::rig::{Picture, Rig, linear, without_particles};
 use glam::{Affine3A, Vec3};
-use vitriol_render::{Fov, FrameDesc, Label, RoomLight, SceneDesc, VesselDesc, View};
+use vitriol_render::{Fov, FrameDesc, Label, PlateDesc, RoomLight, SceneDesc, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [640, 480];
 
@@ -71,6 +71,51 @@ fn sink_and_tray_are_at_the_far_edge() {
     let edges = [0.0, 0.34].map(|x| seen(&view, Vec3::new(tray[0] + x, TOP + 0.018, middle.z))[0]);
     for (found, edge) in found.into_iter().zip(edges) {
         assert!((found - edge).abs() < 1.5, "{found} {edge}");
+    }
+}
+
+/// A plate's ceramic, rim and lamp are where they are put, in scenes of any scale, and beside it is the bench.
+#[test]
+fn a_hot_plate_is_let_into_the_bench() {
+    let mut rig = Rig::new(EXTENT, 1);
+    let (middle, radius) = (Vec3::new(0.12, TOP, -0.4), 0.0675);
+    let view = look(middle + Vec3::new(0.0, 0.4, 0.02), middle, 0.35);
+    for scale in [1.0, 0.05] {
+        let plate = PlateDesc {
+            middle: [middle.x / scale, middle.z / scale],
+            radius: radius / scale,
+        };
+        let bench = SceneDesc::laboratory(Vec::new(), TOP, scale);
+        let mut draw = |plates: Vec<PlateDesc>| {
+            rig.set_scene(&SceneDesc {
+                plates,
+                ..bench.clone()
+            });
+            rig.draw(&FrameDesc {
+                length_scale: scale,
+                ..without_particles(&[view])
+            })
+        };
+        let (picture, plain) = (draw(vec![plate]), draw(Vec::new()));
+        let y = seen(&view, middle)[1];
+        let at = |x: f32| seen(&view, middle + x * Vec3::X)[0];
+        // Reflectances of 0.03, 0.5 and, of the bench, 0.33.
+        let dark = |[_, green, _]: [f64; 3]| green < 0.15;
+        let found = columns(&picture, y, [0.0, 639.0], dark);
+        for (found, x) in found.into_iter().zip([-radius + 0.003, radius - 0.003]) {
+            assert!((found - at(x)).abs() < 1.5, "{scale}: {found} {}", at(x));
+        }
+        let rim = columns(&picture, y, [0.0, 320.0], |[_, green, _]| green > 0.62);
+        assert!((rim[0] - at(-radius)).abs() < 1.5, "{scale}: {rim:?}");
+        let beside = at(-radius) as usize - 6;
+        assert_eq!(
+            rgb(&picture, beside, y as usize),
+            rgb(&plain, beside, y as usize)
+        );
+        // Towards the user.
+        let lamp = seen(&view, middle + (radius - 0.011) * Vec3::Z);
+        let [red, green, _] = rgb(&picture, lamp[0] as usize, lamp[1] as usize);
+        assert!(red > 0.5 && red > 4.0 * green, "{scale}: {red} {green}");
     }
 }
 

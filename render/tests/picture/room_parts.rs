@@ -3,7 +3,7 @@
 
 use crate::rig::{Rig, without_particles};
 use glam::{Affine3A, Vec3};
-use vitriol_render::{BoxDesc, Fov, FrameDesc, Pane, SceneDesc, View};
+use vitriol_render::{BoxDesc, Fov, FrameDesc, Pane, PlateDesc, SceneDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 
@@ -76,7 +76,13 @@ fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
 /// Compares the pictures of every `every`th view.
 fn a_part_is_as_the_whole(every: usize) {
     let mut rig = Rig::new(EXTENT, 1);
-    let whole = SceneDesc::laboratory(Vec::new(), 0.75, 1.0);
+    let whole = SceneDesc {
+        plates: vec![PlateDesc {
+            middle: [0.12, -0.4],
+            radius: 0.07,
+        }],
+        ..SceneDesc::laboratory(Vec::new(), 0.75, 1.0)
+    };
     let small = SceneDesc {
         table: Some(BoxDesc {
             min: Vec3::new(-0.3, 0.4, -0.6),

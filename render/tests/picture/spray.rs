@@ -140,12 +140,46 @@ fn drops_that_rest_are_seen_as_those_that_fly() {
     let resting = places.map(|[x, y]| RestingDrop {
         position: Vec3::new(x, 1.0 + y, -DISTANCE),
         radius,
+        acid: None,
     });
     let flies = drawn(&rig, &places, radius, 1.0);
     let rests = drawn_with(&rig, &[view()], (&[], &resting), JET, &[], (0.0, 0.0));
     let plain = drawn(&rig, &[], 0.0, 0.0);
     assert!(flies.colour[0] != plain.colour[0]);
     assert!(rests.colour[0] == flies.colour[0]);
+}
+
+/// Drops that rest have the legend's tints, of which water lets blue through and acid red; the other one is hardly weakened.
+#[test]
+fn drops_that_rest_are_tinted_as_their_liquid() {
+    let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let light = |acid: Option<f32>| -> [f64; 3] {
+        let resting = [RestingDrop {
+            position: Vec3::new(0.0, 1.0, -DISTANCE),
+            radius: (8.0 / FOCAL) as f32 * DISTANCE,
+            acid,
+        }];
+        let picture = drawn_with(&rig, &[view()], (&[], &resting), JET, &[], (0.0, 0.0));
+        // A square within it.
+        let mut sum = [0.0; 3];
+        for (x, y) in (116..124).flat_map(|y| (156..164).map(move |x| (x, y))) {
+            let pixel = 4 * (y * EXTENT[0] as usize + x);
+            for (channel, sum) in sum.iter_mut().enumerate() {
+                *sum += linear(picture.colour[0][pixel + channel]);
+            }
+        }
+        sum
+    };
+    let [clear, water, acid] = [None, Some(0.0), Some(1.0)].map(light);
+    let share = |of: [f64; 3], channel: usize| of[channel] / clear[channel];
+    let found = [
+        share(water, 0),
+        share(water, 2),
+        share(acid, 0),
+        share(acid, 2),
+    ];
+    assert!(found[0] < 0.75 && found[1] > 0.8, "{found:?}");
+    assert!(found[2] > 0.8 && found[3] < 0.6, "{found:?}");
 }
 
 /// More flights than a workgroup takes, with empty places between them: each is where either eye sees it.

@@ -66,7 +66,7 @@ const MOVED_ACID = 2u;
 
 /// Behind these: how many drops came to rest since the last look, and so many of them, in any order.
 const LANDINGS = 64u;
-const LANDING_WORDS = 8u;
+const LANDING_WORDS = 9u;
 /// Onto what, beside the numbers of whose skin.
 const ONTO_TABLE = 3u;
 const ONTO_FLOOR = 4u;
@@ -179,9 +179,9 @@ fn moved(place: u32, origin: u32, volume: f32, acid: f32) {
     atomicAdd(&tallies[index + MOVED_ACID], share(volume * acid, 0.0, VOLUMES));
 }
 
-/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), and its volume over V0. Those that find no place in the list are
-/// only not drawn.
-fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, volume: f32) {
+/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), its volume over V0 and its acid fraction. Those that find no place
+/// in the list are only not drawn.
+fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, volume: f32, acid: f32) {
     let places = FLASKS + SKIN + SKINS;
     let base = places * WORDS + places * FLASKS * MOVED_WORDS;
     let n = atomicAdd(&tallies[base], 1u);
@@ -193,6 +193,7 @@ fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, volume: f32) {
         atomicStore(&tallies[at + 4u + k], bitcast<u32>(way[k]));
     }
     atomicStore(&tallies[at + 7u], bitcast<u32>(volume));
+    atomicStore(&tallies[at + 8u], bitcast<u32>(acid));
 }
 
 /// A value's share of the way from `low` to `high`.
@@ -334,7 +335,8 @@ fn fallen_of(n: u32, before: f32) -> f32 {
     } else {
         return flight.fallen.x;
     }
-    landed(onto, x, vec3<f32>(0.0), mass * REST_DENSITY / flight.density);
+    // The record keeps the acid of the drops that fell last.
+    landed(onto, x, vec3<f32>(0.0), mass * REST_DENSITY / flight.density, saturate(flight.acid / mass));
     return flight.fallen.x;
 }
 
@@ -383,7 +385,7 @@ fn count_drops(n: u32) {
         let volume = flying.mass * REST_DENSITY / flying.density;
         came(FLASKS + SKIN + whose, flying.position, flying.velocity, volume, acid, celsius);
         moved(FLASKS + SKIN + whose, flying.memberships & 0xffffu, volume, acid);
-        landed(whose, flying.position, run.elapsed * flying.velocity, volume);
+        landed(whose, flying.position, run.elapsed * flying.velocity, volume, acid);
     }
 }
 

@@ -147,6 +147,7 @@ mod tests {
             fixed: true,
             contact_angle: GLASS,
             heater: 0.0,
+            plate: false,
         }
     }
 

@@ -35,6 +35,8 @@ pub struct Flask {
     pub contact_angle: f64,
     /// Heat that a plate under it gives its base, W; 0 without one.
     pub heater: f64,
+    /// Whether it stands on a hot plate at the start, which is drawn and gives nothing but [`Flask::heater`].
+    pub plate: bool,
 }
 
 /// A liquid in a flask at the start.

@@ -70,6 +70,9 @@ pub(super) struct FlaskEntry {
     contact_angle: Option<f64>,
     /// Heat that a plate under it gives its base, W; with `losses`, which model the glass.
     heater: Option<f64>,
+    /// Whether a hot plate is under it that may be switched off; one that heats is there without it.
+    #[serde(default)]
+    plate: bool,
 }
 
 #[derive(Deserialize)]
@@ -144,6 +147,7 @@ impl FlaskEntry {
             fixed: self.fixed,
             contact_angle: angle.to_radians(),
             heater,
+            plate: self.plate || heater > 0.0,
         };
         Flask::check_sizes(std::slice::from_ref(&flask), scale)?;
         Ok(flask)

@@ -42,7 +42,7 @@ const PLACES: usize = 6;
 const WORDS: usize = 23;
 const MOVED_WORDS: usize = 3;
 const LANDINGS: usize = 64;
-const LANDING_WORDS: usize = 8;
+const LANDING_WORDS: usize = 9;
 const WARMTHS: [f64; 2] = [-50.0, 350.0];
 const SUPERHEATS: [f64; 2] = [-350.0, 150.0];
 const VOLUMES: f64 = 8.0;
@@ -359,7 +359,7 @@ impl Units {
         records.sort_unstable();
         let landed = records.into_iter().filter_map(|words| {
             let [onto, numbers @ ..] = *words;
-            let [x, y, z, a, b, c, volume] = numbers.map(f32::from_bits);
+            let [x, y, z, a, b, c, volume, acid] = numbers.map(f32::from_bits);
             let onto = match onto {
                 3 => Onto::Table,
                 4 => Onto::Floor,
@@ -370,6 +370,7 @@ impl Units {
                 position: Vec3::new(x, y, z),
                 way: Vec3::new(a, b, c),
                 volume: self.volume * f64::from(volume),
+                acid,
             })
         });
         landed.collect()

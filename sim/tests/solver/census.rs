@@ -414,6 +414,8 @@ fn thrown_drops_touch_skin_too() {
         let face = census.skin[2];
         came.push(face.came.particles);
         assert_eq!(census.landed.len(), face.came.particles as usize);
+        let sour = census.landed.iter().all(|it| (it.acid - 0.8).abs() < 1e-4);
+        assert!(sour, "{:?}", census.landed);
         if face.came.particles > 0 {
             assert!((face.came.acid - 0.8).abs() < 0.001, "{face:?}");
             // A share is of 1/65,536 of eight volumes.

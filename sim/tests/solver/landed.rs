@@ -25,4 +25,5 @@ fn drops_that_fall_on_the_table_are_listed_where_they_lie() {
     assert!(drop.position.distance(place) < 1e-4, "{drop:?}");
     let volume = drop.volume / setup.parameters.particle_volume();
     assert!((volume - 0.01 / 1.5).abs() < 1e-4, "{volume}");
+    assert!((drop.acid - 0.8).abs() < 1e-4, "{drop:?}");
 }

@@ -348,7 +348,7 @@ impl Session {
             panel: Some(picture::panel(&image)),
             sign: sign.as_ref().map(Drawn::panel),
             shown,
-            goggles: self.spills.goggles(),
+            goggles: self.run.marks().goggles(),
             foveation: foveating.foveation(&views, headset.gaze()),
         };
         let (panel, signs) = (&mut self.panel, &mut self.hints.sign);

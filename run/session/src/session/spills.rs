@@ -10,10 +10,6 @@ use vitriol_xr::Side;
 /// Liquid times its acid fraction that blackens all of a bone of a glove, m³: 0.3 mL would cover a finger's front, 20 cm², 0.15 mm deep. Our choice.
 const BLACK: f64 = 0.3e-6;
 
-/// Liquid times its acid fraction that covers the goggles, mL: a drop of 0.05 mL leaves a stain a centimetre wide, and goggles have some twenty of those. Our
-/// choice.
-const COVERED: f64 = 1.0;
-
 /// How long a touch by acid is felt, ns: longer than a pulse of liquid that stirs, so that it is told from that.
 const FELT: i64 = 400_000_000;
 /// Touches that come sooner after the last are of the same splash, ns.
@@ -58,7 +54,7 @@ impl Contacts {
     }
 }
 
-/// Counts liquid beside the flasks and acid that touched the user, and marks gloves and goggles with it.
+/// Counts liquid beside the flasks and acid that touched the user, and marks gloves with it.
 #[derive(Debug, Default)]
 pub(super) struct Spills {
     /// What lies beside the flasks now.
@@ -67,8 +63,6 @@ pub(super) struct Spills {
     pub contacts: Contacts,
     /// By hand and bone, how black the glove is, 0 to 1.
     stains: [[f32; MOST_BONES]; 2],
-    /// Liquid times its acid fraction that came to the face on this bench, mL.
-    face: f64,
     /// By skin, whether it was touched on this bench, and when last, ns.
     touched: [Option<i64>; 3],
     /// What the user wears.
@@ -127,9 +121,6 @@ impl Spills {
                 touched.times += 1;
                 new.push(skin);
             }
-            if skin == Skin::Face {
-                self.face += 1e6 * acid;
-            }
             if let Some(side) = side(skin) {
                 let at = length_scale * came.position;
                 let stains = &mut self.stains[side as usize];
@@ -156,12 +147,6 @@ impl Spills {
             self.touched[skin as usize].is_some_and(|at| (0..FELT).contains(&(now - at)))
         };
         f32::from(u8::from(recent(own) || recent(Skin::Face)))
-    }
-
-    /// How much of the goggles is covered, 0 to 1: a splash of six at once; nothing is seen through while they are off.
-    pub fn goggles(&self) -> f32 {
-        let touched = self.touched(Skin::Face) && self.worn.goggles != Some(false);
-        f32::from(u8::from(touched)) * (self.face / COVERED).clamp(1.0 / 6.0, 1.0) as f32
     }
 
     /// Whose skin has acid on it on this bench.
@@ -253,24 +238,21 @@ mod tests {
         assert_eq!(spills.contacts.right_hand.times, 1);
         spills.mark(Side::Right, &mut drawn);
         assert_eq!(drawn[1].stain, 1.0);
-        // Another glove is clean, and while none is on, or goggles are off, nothing is seen on them.
-        let worn = |glove, goggles| Worn {
-            goggles: Some(goggles),
+        // Another glove is clean, and while none is on, nothing is seen on it.
+        let worn = |glove| Worn {
+            goggles: Some(true),
             gloves: Some([true, glove]),
         };
-        spills.wears(worn(true, true));
+        spills.wears(worn(true));
         spills.mark(Side::Right, &mut drawn);
         assert_eq!(drawn[1].stain, 1.0);
-        spills.wears(worn(false, false));
+        spills.wears(worn(false));
         spills.mark(Side::Right, &mut drawn);
         assert_eq!(drawn[1].stain, 0.0);
         // The face is felt by both.
         let mut face = Census::default();
         face.skin[2] = splash(1e-6).skin[1];
         assert_eq!(spills.take(&face, 0.05, hands, 3 * SAME), [Skin::Face]);
-        assert_eq!(spills.goggles(), 0.0);
-        spills.wears(worn(false, true));
-        assert!(spills.goggles() > 0.1);
         assert_eq!(
             Side::BOTH.map(|side| spills.felt(side, 3 * SAME)),
             [1.0, 1.0]

@@ -4,10 +4,14 @@ use crate::device::common::{BEFORE, SIZE, coloured, experiment, frame, in_room, 
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{Quat, Vec3};
-use vitriol_run::Colour;
+use vitriol_run::scenery::drawn_liquid;
 use vitriol_run::track::key;
+use vitriol_run::{Camera, Colour, Marks, Shot};
 use vitriol_shaders::Library;
+use vitriol_sim::bodies::Worn;
 use vitriol_sim::scene::{PictureRoom, Scene};
+use vitriol_sim::solver::{Came, Census, Skin};
+use vitriol_sim::world::World;
 use vitriol_tests::gpu;
 use vitriol_xr::{Hand, Pose, Switch};
 
@@ -156,4 +160,49 @@ fn the_head_sees_the_hands() {
     let [above, below] = ends.map(|end| end / millimetre);
     assert!((105.0..150.0).contains(&below), "{below}");
     assert!((-140.0..-90.0).contains(&above), "{above}");
+}
+
+/// Acid that came to the face is seen by the head that wears goggles, in pictures of the liquid; a camera elsewhere does not look through
+/// them, and colours of speed stay what the map says.
+#[test]
+fn the_head_sees_splashes_on_its_goggles() {
+    let gpu = gpu::device();
+    let (scene, library) = (scene(), Library::embedded());
+    let world = World::new(&gpu, &library, &scene, 1).unwrap();
+    let shot = Shot {
+        liquid: Some(drawn_liquid(&world)),
+        ..Shot::of(SIZE.into())
+    };
+    let mut camera = Camera::new(&gpu, &library, &scene, &shot).unwrap();
+    let mut census = Census::default();
+    census.skin[Skin::Face as usize].came = Came {
+        particles: 20,
+        volume: 1e-6,
+        acid: 0.98,
+        ..Came::default()
+    };
+    let mut splashed = Marks::default();
+    splashed.take(&census, [&[], &[]], 1.0);
+    // Pixels that the splashes change.
+    let changed = |camera: &mut Camera, marks: &Marks, colour: Colour| {
+        let mut shoot = |marks: &Marks| {
+            camera.show_marks(marks);
+            camera.shoot(&world, colour).unwrap()
+        };
+        let (clean, marked) = (shoot(&Marks::default()), shoot(marks));
+        let pixels = clean.chunks_exact(4).zip(marked.chunks_exact(4));
+        pixels.filter(|(a, b)| a != b).count()
+    };
+    assert_eq!(changed(&mut camera, &splashed, Colour::Liquid), 0);
+    camera.follow(&Pose::new(BEFORE, Quat::IDENTITY));
+    let covered = changed(&mut camera, &splashed, Colour::Liquid);
+    let share = covered as f32 / (SIZE.0 * SIZE.1) as f32;
+    assert!((0.03..0.6).contains(&share), "{share}");
+    assert_eq!(changed(&mut camera, &splashed, Colour::Speed), 0);
+    let mut off = splashed.clone();
+    off.wears(Worn {
+        goggles: Some(false),
+        gloves: None,
+    });
+    assert_eq!(changed(&mut camera, &off, Colour::Liquid), 0);
 }

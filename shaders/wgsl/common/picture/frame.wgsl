@@ -73,6 +73,8 @@ struct Frame {
     blockers: array<Blocker, 8>,
     /// Whole ones, as many as there are blockers and in the same order, and then shards: `glass_count` in all.
     vessels: array<Vessel, 24>,
+    /// Hot plates in the table's top: x and z of a middle and its radius, in the scene's unit; those behind the last one have no radius.
+    plates: array<vec4<f32>, 8>,
     /// Low corner of the table; its high corner is no higher where there is none.
     table_min: vec3<f32>,
     /// How many blockers there are.

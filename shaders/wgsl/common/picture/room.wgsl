@@ -72,11 +72,15 @@ const WORKTOP = vec3<f32>(0.30, 0.33, 0.35);
 fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal: vec3<f32>, through: Through) -> vec3<f32> {
     let key = key_light(at);
     let share = vec2<f32>(1.0, through.window) * shadow(position, normal, key.direction, through.vessel);
-    let light = WORKTOP * (share.x * ambient_light(normal.y) + share.y * max(dot(normal, key.direction), 0.0) * key.light);
+    let sharp = max(-ray.direction.y, LEAST_SLOPE) / max(way * ray.fine, 1e-6);
+    var top = Top(WORKTOP, vec3<f32>(0.0));
+    if (normal.y > 0.5) { top = top_at(at.xz, sharp, WORKTOP); }
+    let comes = share.x * ambient_light(normal.y) + share.y * max(dot(normal, key.direction), 0.0) * key.light;
+    let light = top.albedo * comes + top.glow;
     let far = at.z - frame.table_min.z * frame.metres_per_unit;
     // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
     if (!sees(SEES_FITTINGS) || far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
-    let fitted_ = fitted(ray, at, max(-ray.direction.y, LEAST_SLOPE) / (way * ray.fine), light, share);
+    let fitted_ = fitted(ray, at, sharp, light, share);
     let metal = tap(ray, way);
     return mix(fitted_, metal.light, metal.share);
 }

@@ -1,7 +1,8 @@
-//! What belongs to the bench where vessels stand: a sink let into its top and a tray on it, both along its far edge, and a tap.
+//! What belongs to the bench where vessels stand: a sink let into its top and a tray on it, both along its far edge, and a tap; and hot plates.
 //!
 //! They are only seen. The solver's bench is flat: liquid that is spilt would lie over the sink and in the tray's walls, so both are kept
-//! away from where vessels, tools and hands are in any scene, and a bench smaller than `LEAST_BENCH` has neither.
+//! away from where vessels, tools and hands are in any scene, and a bench smaller than `LEAST_BENCH` has neither. A hot plate is flush
+//! with the bench, so vessels and liquid on it are as high as the solver has them.
 
 //!include common/picture/sight.wgsl
 
@@ -23,6 +24,42 @@ const TAP_RADIUS = 0.0095;
 const BASIN = vec3<f32>(0.23, 0.235, 0.24);
 const TRAY = vec3<f32>(0.66, 0.67, 0.68);
 const CHROME = vec3<f32>(0.50, 0.51, 0.52);
+/// A hot plate: how wide its rim is, how far from its edge towards the user the lamp is that shines while it is hot, and the lamp's radius, m.
+const PLATE_RIM = 0.003;
+const PLATE_LAMP = 0.011;
+const PLATE_LAMP_RADIUS = 0.0025;
+const CERAMIC = vec3<f32>(0.030, 0.029, 0.030);
+const PLATE_LAMP_LIGHT = vec3<f32>(0.90, 0.04, 0.03);
+
+/// The bench's surface where hot plates are let into it.
+struct Top {
+    albedo: vec3<f32>,
+    /// What it shines by itself.
+    glow: vec3<f32>,
+}
+
+/// How much of a pixel is in a disc; of one that is smaller than a pixel no more than it fills. `apart` is the way to its middle.
+fn in_disc(apart: f32, radius: f32, sharp: f32) -> f32 {
+    return saturate((radius - apart) * sharp + 0.5) * min(2.0 * radius * sharp, 1.0);
+}
+
+/// The surface at a place (x, z) of the bench, m, which is `plain` beside the plates; `sharp` is one over a pixel's width.
+fn top_at(at: vec2<f32>, sharp: f32, plain: vec3<f32>) -> Top {
+    var top = Top(plain, vec3<f32>(0.0));
+    for (var n = 0u; n < 8u; n++) {
+        let plate = frame.plates[n].xyz * frame.metres_per_unit;
+        if (plate.z <= 0.0) { break; }
+        let from_middle = at - plate.xy;
+        let apart = length(from_middle);
+        let rim = in_disc(apart, plate.z, sharp);
+        if (rim == 0.0) { continue; }
+        let ceramic = in_disc(apart, plate.z - PLATE_RIM, sharp);
+        let lamp = in_disc(distance(from_middle, vec2<f32>(0.0, plate.z - PLATE_LAMP)), PLATE_LAMP_RADIUS, sharp);
+        top.albedo = mix(mix(top.albedo, CHROME, rim), CERAMIC, ceramic);
+        top.glow = mix(top.glow, lamp * PLATE_LAMP_LIGHT, rim);
+    }
+    return top;
+}
 
 fn has_fittings() -> bool {
     let size = (frame.table_max - frame.table_min).xz * frame.metres_per_unit;

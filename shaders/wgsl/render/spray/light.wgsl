@@ -16,13 +16,14 @@ const DROP_INDEX = 1.333;
 const DROP_TAPS = array<vec2<f32>, 4>(
     vec2<f32>(-0.25, -0.25), vec2<f32>(0.25, -0.25), vec2<f32>(-0.25, 0.25), vec2<f32>(0.25, 0.25));
 
-/// What a ray brings that meets a drop where its outward normal is `normal`: mirrored, and through both faces.
-fn drop_light(centre: vec3<f32>, ray: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+/// What a ray brings that meets a drop where its outward normal is `normal`: mirrored, and through both faces, between which the share `kept`
+/// is let through.
+fn drop_light(centre: vec3<f32>, ray: vec3<f32>, normal: vec3<f32>, kept: vec3<f32>) -> vec3<f32> {
     let mirrors = fresnel(saturate(-dot(ray, normal)), DROP_INDEX);
     let within = refract(ray, normal, 1.0 / DROP_INDEX);
     let out = normal - 2.0 * dot(within, normal) * within;
     let through = refract(within, -out, DROP_INDEX);
-    let passed = (1.0 - mirrors) * (1.0 - mirrors) * mirrored_light(centre, through);
+    let passed = kept * (1.0 - mirrors) * (1.0 - mirrors) * mirrored_light(centre, through);
     return passed + mirrors * mirrored_light(centre, reflect(ray, normal));
 }
 
@@ -39,6 +40,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     let view = &frame.views[place.eye];
     let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
     let drawn = drawn_drop(flight.radius, depth, (*view).focal);
+    let kept = exp(-flight.tinted * mix(frame.water, frame.acid, flight.acid));
     var light = vec3<f32>(0.0);
     for (var n = 0u; n < 4u; n++) {
         let ray = normalize(seen_along(place.eye, vec2<f32>(place.pixel) + 0.5 + DROP_TAPS[n]));
@@ -47,7 +49,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         // Beside it, what is at its edge.
         let aside = miss * min(1.0, 0.98 / max(length(miss), 1e-6));
         let normal = aside - sqrt(max(1.0 - dot(aside, aside), 0.0)) * ray;
-        light += 0.25 * drop_light(centre, ray, normalize(normal));
+        light += 0.25 * drop_light(centre, ray, normalize(normal), kept);
     }
     nearest[index] = packed_share(display(light), drawn.y);
 }

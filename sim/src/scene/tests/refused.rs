@@ -260,6 +260,14 @@ fn a_plate_heats_glass_that_is_modelled() {
         [150.0, 0.0],
         "by flask"
     );
+    // A plate that is off is there all the same, and gives nothing.
+    let plates = |scene: &Scene| -> Vec<(f64, bool)> {
+        let flasks = scene.flasks.iter();
+        flasks.map(|it| (it.heater, it.plate)).collect()
+    };
+    assert_eq!(plates(&heated), [(150.0, true), (0.0, false)]);
+    let off = Scene::builtin("hot-acid").unwrap();
+    assert_eq!(plates(&off), [(0.0, false), (0.0, true)]);
     for heater in ["-1", "6000", "nan"] {
         let message = Scene::parse(&on(heater), "p.toml").unwrap_err().to_string();
         assert!(message.contains("flask[0].heater"), "{message}");

@@ -143,6 +143,8 @@ pub struct Landed {
     pub way: Vec3,
     /// Volume, m³ of the scene.
     pub volume: f64,
+    /// Acid mass fraction.
+    pub acid: f32,
 }
 
 /// Bubbles of a flask, and those that were born, collapsed or burst since the last look.
