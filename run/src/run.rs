@@ -18,6 +18,7 @@ use crate::failure::{Blame, Failure, blame_world};
 use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
 use crate::marks::Marks;
+use crate::units::count;
 use crate::{stage, track};
 
 pub use recording::{Note, RecordingStatus, Said, Sink, TrackRecording};
@@ -328,7 +329,10 @@ impl Run {
         let lifeline = before.lifeline().filter(|_| lost);
         if let Some(lifeline) = lifeline {
             self.looks.take_again(world.revive(lifeline).other()?);
-            tracing::info!("brought back, {} steps taken again", lifeline.steps());
+            tracing::info!(
+                "brought back, {} taken again",
+                count(lifeline.steps() as u64, "step")
+            );
         } else {
             world.solve_like(before).other()?;
             world.restore(&state.other()?).other()?;

@@ -29,6 +29,15 @@ pub fn length(metres: f64) -> Scaled {
     pick(metres, &[(1.0, "m"), (1e2, "cm"), (1e3, "mm")])
 }
 
+/// Length of data: MB, kB or B.
+pub fn data(bytes: u64) -> String {
+    let bytes = bytes as f64;
+    with_unit(
+        bytes,
+        pick(bytes, &[(1e-6, "MB"), (1e-3, "kB"), (1.0, "B")]),
+    )
+}
+
 /// The first unit in which the largest value is 1 or more, else the last; for
 /// zero the second, which is the one that laboratory quantities come in.
 fn pick(largest: f64, units: &[(f64, &'static str); 3]) -> Scaled {
@@ -87,6 +96,16 @@ pub fn grouped(number: u64) -> String {
     out
 }
 
+/// A number of things, such as `1 file` or `2 passes`; `noun` is one of them, whose plural takes s or es.
+pub fn count(number: u64, noun: &str) -> String {
+    let ending = match number {
+        1 => "",
+        _ if noun.ends_with(['s', 'x', 'h']) => "es",
+        _ => "s",
+    };
+    format!("{} {noun}{ending}", grouped(number))
+}
+
 /// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
 ///
 /// # Errors
@@ -115,6 +134,16 @@ mod tests {
         assert_eq!(three_digits(f64::NAN), "not finite");
         assert_eq!(grouped(13_894), "13\u{202f}894");
         assert_eq!(grouped(999), "999");
+        assert_eq!(data(512), "512 B");
+        assert_eq!(data(1_200_000), "1.20 MB");
+    }
+
+    #[test]
+    fn one_thing_is_not_called_many() {
+        assert_eq!(count(1, "moment"), "1 moment");
+        assert_eq!(count(0, "moment"), "0 moments");
+        assert_eq!(count(2, "switch"), "2 switches");
+        assert_eq!(count(1, "dispatch"), "1 dispatch");
     }
 
     #[test]

@@ -13,6 +13,8 @@ mod entry;
 pub mod files;
 mod frame;
 mod headset;
+#[cfg(feature = "openxr")]
+mod manifest;
 mod pose;
 #[cfg(feature = "openxr")]
 pub mod probe;

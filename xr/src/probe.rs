@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use openxr::{ApplicationInfo, Entry, ExtensionSet, Version};
 
+use crate::HeadsetError;
 use crate::entry::entry;
+use crate::manifest::{self, ManifestError, RUNTIMES};
 
 /// Result of [`probe`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -25,18 +27,20 @@ pub struct Probe {
 /// Looks for loader and runtime. It makes an instance and destroys it; no
 /// session and no device.
 pub fn probe() -> Probe {
+    let (chosen, entry) = (manifest::check(), entry());
     let mut found = Probe {
-        manifest: manifest(),
+        loader: entry.is_ok(),
+        manifest: manifest::find(),
         ..Probe::default()
     };
-    let entry = match entry() {
-        Ok(entry) => entry,
-        Err(remedy) => {
-            found.missing.push(remedy);
+    found.missing.extend(chosen.err().map(|it| it.to_string()));
+    let entry = match entry {
+        Ok(entry) if found.missing.is_empty() => entry,
+        entry => {
+            found.missing.extend(entry.err());
             return found;
         }
     };
-    found.loader = true;
     let offered = match entry.enumerate_extensions() {
         Ok(offered) => offered,
         Err(error) => {
@@ -53,6 +57,17 @@ pub fn probe() -> Probe {
         found.missing.push(no_vulkan(&entry));
     }
     found
+}
+
+/// Whether a runtime is chosen, and its file leads to a library that is one. The loader is not asked, and the runtime may still be off.
+///
+/// # Errors
+/// [`HeadsetError::NoRuntime`] with the remedy.
+pub fn check() -> Result<(), HeadsetError> {
+    let none = |error: ManifestError| HeadsetError::NoRuntime {
+        remedy: error.to_string(),
+    };
+    manifest::check().map_err(none)
 }
 
 /// Name and version of the runtime.
@@ -95,24 +110,15 @@ pub(crate) fn no_vulkan(entry: &Entry) -> String {
     )
 }
 
-/// Runtimes of this system's headsets.
-#[cfg(windows)]
-const RUNTIMES: &str = "SteamVR or Meta Quest Link, and make it the active one in its settings";
-#[cfg(not(windows))]
-const RUNTIMES: &str = "SteamVR, WiVRn or Monado";
-
 /// Message for a loader without a runtime that answers.
 pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
-    match manifest() {
+    match manifest::find() {
         Some(manifest) => format!(
             "The OpenXR runtime of {} does not answer ({error}): start it, or name another one's \
              file in XR_RUNTIME_JSON.",
             manifest.display()
         ),
-        None => format!(
-            "No OpenXR runtime is chosen ({error}): install and start your headset's, such as {RUNTIMES}, or name its \
-             file in XR_RUNTIME_JSON."
-        ),
+        None => ManifestError::Unchosen.to_string(),
     }
 }
 
@@ -148,13 +154,6 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
     ]
 }
 
-/// The file that names the active runtime, by the loader's own rules (OpenXR loader specification, "Desktop active
-/// runtime file location").
-fn manifest() -> Option<PathBuf> {
-    let named = std::env::var_os("XR_RUNTIME_JSON");
-    named.map(PathBuf::from).or_else(active_manifest)
-}
-
 /// Files of runtimes that are installed beside the active one.
 #[cfg(windows)]
 fn others() -> Vec<PathBuf> {
@@ -185,31 +184,7 @@ fn others() -> Vec<PathBuf> {
 
 fn beside_the_active(mut all: Vec<PathBuf>) -> Vec<PathBuf> {
     let real = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
-    let active = manifest().as_ref().map(real);
+    let active = manifest::find().as_ref().map(real);
     all.retain(|path| Some(real(path)) != active);
     all
-}
-
-/// On Windows the registry names it.
-#[cfg(windows)]
-fn active_manifest() -> Option<PathBuf> {
-    let key = windows_registry::LOCAL_MACHINE.open(r"SOFTWARE\Khronos\OpenXR\1");
-    let named = key.and_then(|key| key.get_string("ActiveRuntime"));
-    named.ok().map(PathBuf::from)
-}
-
-/// Elsewhere the first of these files is it.
-#[cfg(not(windows))]
-fn active_manifest() -> Option<PathBuf> {
-    let variable = |name: &str| std::env::var_os(name).map(PathBuf::from);
-    let user = variable("XDG_CONFIG_HOME").or_else(|| Some(variable("HOME")?.join(".config")));
-    let system = [
-        PathBuf::from("/etc/xdg"),
-        PathBuf::from("/usr/local/etc"),
-        PathBuf::from("/etc"),
-    ];
-    user.into_iter()
-        .chain(system)
-        .map(|folder| folder.join("openxr/1/active_runtime.json"))
-        .find(|path| path.exists())
 }

@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
+use vitriol_live::listen_address;
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
 use vitriol_run::arguments::preset;
@@ -84,7 +85,7 @@ pub struct KeepArgs {
 /// Arguments of `vitriol hub`.
 #[derive(Debug, Args)]
 pub struct HubArgs {
-    /// Where it listens, by HTTPS; 0.0.0.0:8470 for a class
-    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8470")]
+    /// Where it listens, by HTTPS; 0.0.0.0:8470 for a class, localhost:8470 or 8470 for this computer alone
+    #[arg(long, value_name = "ADDRESS:PORT", value_parser = listen_address, default_value = "127.0.0.1:8470")]
     pub listen: SocketAddr,
 }

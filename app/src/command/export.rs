@@ -8,6 +8,7 @@ use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
 use vitriol_run::output::{OutDir, REPORT_JSON};
 use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, PRESET};
+use vitriol_run::units::{count, data};
 use vitriol_run::{
     Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, device, emit,
 };
@@ -336,13 +337,13 @@ fn finished(out: OutDir, formats: &[Exported], moments: u64) -> Result<Done, Fai
 
 fn describe(done: &Done) -> String {
     let mut text = format!(
-        "{} files of {:.1} MB in {}",
-        done.files,
-        1e-6 * done.bytes as f64,
+        "{} of {} in {}",
+        count(done.files as u64, "file"),
+        data(done.bytes),
         done.folder.display()
     );
     if done.moments > 0 {
-        text += &format!(", {} moments", done.moments);
+        text += &format!(", {}", count(done.moments, "moment"));
     }
     if let Some(hash) = &done.state_hash {
         text += &format!("\nstate {hash}");

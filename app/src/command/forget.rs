@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use vitriol_record::store::{Forgotten, Store, StoreError, default_path};
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure, Format, emit};
 
 use crate::cli::ForgetArgs;
@@ -136,9 +137,4 @@ fn describe(told: &Told) -> String {
         );
     }
     text
-}
-
-fn count(number: u64, of: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {of}{plural}")
 }

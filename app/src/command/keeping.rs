@@ -7,6 +7,7 @@ use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
 use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure};
 
 use crate::cli::KeepArgs;
@@ -167,8 +168,9 @@ impl Kept {
             return lines;
         };
         lines.push(format!(
-            "sent    {} statements, {} wait",
-            sent.delivered, sent.waiting
+            "sent    {}, {} waiting",
+            count(sent.delivered, "statement"),
+            sent.waiting
         ));
         lines.extend(sent.refused.iter().map(|why| format!("refused {why}")));
         lines.extend(sent.stopped.iter().map(|why| format!("stopped {why}")));

@@ -5,6 +5,7 @@ mod subtitles;
 
 use serde::Serialize;
 use vitriol_lesson::{Language, Lesson, Texts};
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit};
 
 use crate::cli::LessonArgs;
@@ -85,12 +86,12 @@ pub fn run(
     }
     emit(format, &of(&lesson, args.language, &texts), |told| {
         let mut text = format!(
-            "{}\n{}\n{}\nscene {}, {} points\n",
+            "{}\n{}\n{}\nscene {}, {}\n",
             modes(told, &lesson),
             told.title,
             told.summary,
             told.scene,
-            told.points
+            count(told.points.into(), "point")
         );
         for (number, step) in (1..).zip(&told.steps) {
             text += &format!("{number:>3}  {} ({})\n", step.text, step.points);

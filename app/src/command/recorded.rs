@@ -3,7 +3,7 @@
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
 use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET, key};
-use vitriol_run::units::three_digits;
+use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
@@ -16,8 +16,12 @@ use crate::cli::CameraName;
 pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure> {
     let first = track.frames.first().map_or(0, |frame| frame.step);
     if first > 0 {
+        let steps = match first {
+            1 => "step".to_owned(),
+            _ => count(first, "step"),
+        };
         return Err(format!(
-            "{name}: lacks its first {first} steps, so that nothing of it can be replayed; copy it again"
+            "{name}: lacks its first {steps}, so that nothing of it can be replayed; copy it again"
         ))
         .input();
     }

@@ -18,7 +18,7 @@ use vitriol_run::output::{
 };
 use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, STATE_HASH};
-use vitriol_run::units::{grouped, mass, percent, three_digits, with_unit};
+use vitriol_run::units::{count, mass, percent, three_digits, with_unit};
 use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Scenes, Setup, emit, in_a_line,
@@ -373,8 +373,8 @@ fn describe(done: &Replayed) -> String {
         .collect();
     let mut lines = vec![
         format!(
-            "{} particles, {} s simulated in {} s on {}",
-            grouped(report.fluid_particles),
+            "{}, {} s simulated in {} s on {}",
+            count(report.fluid_particles, "particle"),
             three_digits(report.simulated_s),
             three_digits(report.wall_s),
             report.device.name
@@ -394,9 +394,8 @@ fn describe(done: &Replayed) -> String {
     for ((attempt, score), number) in report.attempts.iter().zip(&report.score).zip(1..) {
         let scene = in_a_line(&attempt.scene);
         let Score { points, of, .. } = score;
-        lines.push(format!(
-            "attempt {number}, {scene}: {points} of {of} points"
-        ));
+        let of = count((*of).into(), "point");
+        lines.push(format!("attempt {number}, {scene}: {points} of {of}"));
         lines.extend(
             score
                 .caps
@@ -406,10 +405,8 @@ fn describe(done: &Replayed) -> String {
     }
     for (verdict, number) in report.lesson.iter().zip(1..) {
         let Verdict { points, of, .. } = verdict;
-        let name = &verdict.lesson;
-        lines.push(format!(
-            "attempt {number}, lesson {name}: {points} of {of} points"
-        ));
+        let (name, of) = (&verdict.lesson, count((*of).into(), "point"));
+        lines.push(format!("attempt {number}, lesson {name}: {points} of {of}"));
     }
     lines.push(String::new());
     for film in report.film.iter().chain(&report.film_temperature) {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use vitriol_gpu::Timestamps;
 use vitriol_run::passes::anatomy;
-use vitriol_run::units::{grouped, length, three_digits, with_unit};
+use vitriol_run::units::{count, grouped, length, three_digits, with_unit};
 use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_sim::scene::{Feature, Preset, Scene};
 
@@ -124,16 +124,16 @@ fn describe_cost(cost: &SceneCost) -> String {
         .map(|(name, dispatches)| format!("{name} {dispatches}"))
         .collect();
     format!(
-        "{}, {}: {} particles, {} bytes each; walls by {}\n  modelled: {}\n  left out: {}\n  \
-         {} dispatches a frame: {}\n",
+        "{}, {}: {}, {} each; walls by {}\n  modelled: {}\n  left out: {}\n  \
+         {} a frame: {}\n",
         cost.scene,
         cost.preset,
-        grouped(cost.fluid_particles as u64),
-        grouped(cost.bytes_per_particle),
+        count(cost.fluid_particles as u64, "particle"),
+        count(cost.bytes_per_particle, "byte"),
         cost.boundary,
         list(&cost.models),
         list(&cost.left_out),
-        cost.dispatches,
+        count(cost.dispatches.into(), "dispatch"),
         passes.join(", ")
     )
 }
@@ -183,12 +183,12 @@ fn describe(info: &SceneInfo) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {:<10} {:>8} particles of {}, {} substeps × {} iterations, ω {}",
+            "  {:<10} {:>8} particles of {}, {} × {}, ω {}",
             preset.preset,
             grouped(preset.fluid_particles as u64),
             with_unit(preset.d_m, length(preset.d_m)),
-            preset.solver.substeps,
-            preset.solver.iterations,
+            count(preset.solver.substeps.into(), "substep"),
+            count(preset.solver.iterations.into(), "iteration"),
             three_digits(preset.solver.omega)
         );
     }

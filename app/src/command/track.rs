@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use vitriol_run::track::BROKEN_OFF;
-use vitriol_run::units::three_digits;
+use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Failure, Format, emit, in_a_line, track};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::track::{self as tracks, Existing, builtin};
@@ -83,9 +83,9 @@ fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
     };
     emit(format, &conversion, |done| {
         format!(
-            "{}: {} frames, {} s",
+            "{}: {}, {} s",
             done.output,
-            done.frames,
+            count(done.frames, "frame"),
             three_digits(done.duration_s)
         )
     })
@@ -111,10 +111,10 @@ fn look_into(name: &str) -> Result<TrackInfo, Failure> {
 
 fn line(info: &TrackInfo) -> String {
     format!(
-        "{:<16} {:>6} s  {:>5} frames  scene {}\n",
+        "{:<16} {:>6} s  {:>12}  scene {}\n",
         info.track,
         three_digits(info.duration_s),
-        info.frames,
+        count(info.frames as u64, "frame"),
         in_a_line(&info.scene)
     )
 }
@@ -125,9 +125,9 @@ fn describe(info: &TrackInfo) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "seed {}, {} switches, recorded by version {}",
+        "seed {}, {}, recorded by version {}",
         info.seed,
-        info.switches,
+        count(info.switches as u64, "switch"),
         if info.program_version.is_empty() {
             "unknown"
         } else {
@@ -141,9 +141,11 @@ fn describe(info: &TrackInfo) -> String {
         let scenes: Vec<_> = info.scenes.iter().map(|name| in_a_line(name)).collect();
         let _ = writeln!(text, "carries the scenes {}", scenes.join(", "));
     }
-    if info.missing_steps > 0 {
-        let _ = writeln!(text, "{} steps are missing.", info.missing_steps);
-    }
+    let _ = match info.missing_steps {
+        0 => Ok(()),
+        1 => writeln!(text, "A step is missing."),
+        steps => writeln!(text, "{} are missing.", count(steps, "step")),
+    };
     if info.recovered {
         text.push_str("The recording broke off; it was read as far as it goes.\n");
     }

@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use vitriol_gpu::{Gpu, PlainLoader, Timestamps};
+use vitriol_gpu::{Gpu, PlainLoader, Timestamps, vk};
 use vitriol_run::{Blame, Failure, Format, Scenes, device, emit, track};
 use vitriol_sound::Device;
 use vitriol_xr::Headset;
@@ -66,6 +66,11 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         course,
         language: args.language,
     };
+    // Before the console's address is printed: without a runtime there is nothing to direct.
+    #[cfg(feature = "vr")]
+    if args.stand_in.is_none() {
+        headset::check()?;
+    }
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
     let serving = match args.no_console {
         true => None,
@@ -96,20 +101,26 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;
         let session = begin(headset, options, !args.no_mirror, &serving)?;
+        if args.stand_in.is_some() && format == Format::Text {
+            eprintln!("the stand-in runs; Ctrl-C ends it");
+        }
         let outcome = session.run(headset)?;
         Ok((headset.name().to_owned(), outcome))
     };
     let ((name, outcome), stand_in) = match &args.stand_in {
         Some(wearer) => {
+            let track = whole(wearer, track::load(wearer)?, true)?;
             let gpu = device::timed(args.device.as_deref(), timestamps)?;
+            if format == Format::Text {
+                eprintln!("{}", starting(&gpu.info().name, gpu.info().kind));
+            }
             let spec = StandInSpec {
                 extent: args.size,
                 rate_hz: args.rate,
                 timing: Timing::Real,
             };
             let opened = gpu.options().clone();
-            let mut headset =
-                StandIn::new(&gpu, whole(wearer, track::load(wearer)?, true)?, spec).other()?;
+            let mut headset = StandIn::new(&gpu, track, spec).other()?;
             headset = headset.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
             (worn(&mut headset)?, Some((spec, headset.ready())))
         }
@@ -147,6 +158,16 @@ fn no_headset() -> Result<(), Failure> {
         "this build leaves headsets out: give --stand-in, or {REMEDY}"
     ))
     .input()
+}
+
+/// Says that the stand-in starts on that device, which may take minutes, and whether it will be fast enough.
+fn starting(device: &str, kind: vk::PhysicalDeviceType) -> String {
+    let mut text = format!("the stand-in starts on {device}: scene and shaders are made ready");
+    if kind == vk::PhysicalDeviceType::CPU {
+        text += "\nthat is a software driver, on which this is no session in real time: its frames take longer than \
+                 they are shown; choose a graphics card with --device (see `vitriol doctor`)";
+    }
+    text
 }
 
 /// The lesson that is asked for, which its scene has all for.
@@ -245,4 +266,22 @@ fn keys(serving: Option<Arc<Serving>>) -> Result<(Sender<Decision>, Receiver<Dec
         });
     }
     Ok((of_window, taken))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Who waits for a stand-in is told of a device that is too slow, and of no other.
+    #[test]
+    fn a_software_driver_is_no_real_time() {
+        for (kind, slow) in [
+            (vk::PhysicalDeviceType::CPU, true),
+            (vk::PhysicalDeviceType::DISCRETE_GPU, false),
+        ] {
+            let text = starting("Voodoo", kind);
+            assert!(text.contains("starts on Voodoo"), "{text}");
+            assert_eq!(text.contains("no session in real time"), slow, "{text}");
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! The binary from outside: exit codes, one message, pure JSON.
 
+#[cfg(target_os = "linux")]
+pub mod runtime;
 mod shown;
 
 use std::fs;

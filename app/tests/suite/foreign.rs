@@ -223,7 +223,7 @@ fn what_breaks_off_is_not_made_whole() {
     for (track, says) in [
         ("cut.mcap", "its recorder stopped hard"),
         ("saved.mcap", "its file had no end"),
-        ("late.mcap", "lacks its first 1 steps"),
+        ("late.mcap", "lacks its first step, so"),
     ] {
         for command in [
             &["replay", track, "--no-video"][..],

@@ -5,6 +5,7 @@ mod drive;
 mod hold;
 mod inset;
 mod loss;
+mod manifest;
 mod moved;
 mod pour;
 mod program;

@@ -5,14 +5,14 @@ use std::net::SocketAddr;
 use clap::Args;
 use vitriol_console::HubAddress;
 
-use crate::serve::hub_address;
+use crate::serve::{hub_address, listen_address};
 
 /// Where the instructor's console is. Without any of these it is a page that this computer alone can open; its address, good for one
 /// browser, goes to standard error.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ConsoleArgs {
-    /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470
-    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "hub")]
+    /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470; localhost:8470 or 8470 is for this one
+    #[arg(long, value_name = "ADDRESS:PORT", value_parser = listen_address, conflicts_with = "hub")]
     pub listen: Option<SocketAddr>,
     /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
     #[arg(long, value_name = "HUB", value_parser = hub_address)]

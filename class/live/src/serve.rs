@@ -1,6 +1,6 @@
 //! Where the console is: served by this program, or by a hub that it dials.
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -184,6 +184,24 @@ pub fn hub_address(text: &str) -> Result<HubAddress, String> {
     text.parse().map_err(|error| format!("{error}"))
 }
 
+/// Where a console listens: an address and a port, a computer's name and a port, or a port of this computer alone.
+///
+/// # Errors
+/// What is to be given.
+pub fn listen_address(text: &str) -> Result<SocketAddr, String> {
+    if let Ok(port) = text.parse::<u16>() {
+        return Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port));
+    }
+    // A name may have addresses of both kinds; a port alone is IPv4's too.
+    let found = text.to_socket_addrs().ok();
+    let found = found.and_then(|found| found.min_by_key(SocketAddr::is_ipv6));
+    found.ok_or_else(|| {
+        "there is none; give an address and a port, such as 0.0.0.0:8470, a name and a port, such as localhost:8470, or a \
+         port of this computer"
+            .to_owned()
+    })
+}
+
 /// The user's folder for the program's data.
 fn folder() -> Result<PathBuf, Failure> {
     let folder = dirs::data_dir().map(|folder| folder.join("vitriol"));
@@ -198,4 +216,27 @@ fn computer() -> Option<String> {
     let said = || std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = named.or_else(said)?.trim().to_owned();
     (!name.is_empty()).then_some(name)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Addresses of RFC 6890: 127.0.0.1 is this computer's, 0.0.0.0 all of its own.
+    #[test]
+    fn a_console_listens_at_an_address_a_name_or_a_port() {
+        for (given, meant) in [
+            ("0.0.0.0:8470", "0.0.0.0:8470"),
+            ("[::1]:8470", "[::1]:8470"),
+            ("localhost:8470", "127.0.0.1:8470"),
+            ("8470", "127.0.0.1:8470"),
+        ] {
+            assert_eq!(listen_address(given), Ok(meant.parse().unwrap()), "{given}");
+        }
+        for wrong in ["", "localhost", "0.0.0.0", "70000", "localhost:port"] {
+            let message = listen_address(wrong).unwrap_err();
+            assert!(message.contains("localhost:8470"), "{wrong}: {message}");
+        }
+    }
 }

@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crate::track::BROKEN_OFF;
+use crate::units::count;
 use serde::Serialize;
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
@@ -302,7 +303,10 @@ impl<'a> Recorder<'a> {
             // The state at its end is not the one that a replay of it comes to.
             outcome = [(
                 BROKEN_OFF.to_owned(),
-                format!("{lost} steps are not recorded"),
+                match lost {
+                    1 => "a step is not recorded".to_owned(),
+                    _ => format!("{} are not recorded", count(lost, "step")),
+                },
             )]
             .into();
         }

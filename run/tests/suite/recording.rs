@@ -148,7 +148,7 @@ fn a_recording_that_lacks_steps_says_so() {
     assert!(state.cause.unwrap().contains("flask_ has 65"));
     let track = Track::open(&file).unwrap();
     assert_eq!(track.holes().count(), 1);
-    assert_eq!(track.outcome["broken_off"], "1 steps are not recorded");
+    assert_eq!(track.outcome["broken_off"], "a step is not recorded");
     assert!(!track.outcome.contains_key("state_hash"));
     let switched: Vec<_> = track.frames.iter().map(|it| it.scenario.len()).collect();
     assert_eq!(switched, [0, 1, 0]);

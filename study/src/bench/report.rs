@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use vitriol_run::DeviceStatement;
 use vitriol_run::passes::{PassRow, Timing};
-use vitriol_run::units::{grouped, percent};
+use vitriol_run::units::{count, grouped, percent};
 
 /// Results of `vitriol bench`.
 #[derive(Debug, Clone, Serialize)]
@@ -150,8 +150,10 @@ const fn paper(fluid: u64, solid: u64, fluid_ms: f64, boiling_ms: f64, flasks_ms
 /// A table for people.
 pub fn describe(bench: &Benchmark) -> String {
     let mut text = format!(
-        "{}, {}, {} frames\n",
-        bench.device.name, bench.device.driver, bench.frames
+        "{}, {}, {}\n",
+        bench.device.name,
+        bench.device.driver,
+        count(bench.frames.into(), "frame")
     );
     for row in &bench.rows {
         // Writing to a string cannot fail.

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use vitriol_run::units::{grouped, three_digits};
+use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::Preset;
@@ -209,8 +209,8 @@ fn describe(result: &Calorimeter) -> String {
             result.mass_drift, result.acid_drift, result.enthalpy_drift
         ),
         format!(
-            "{} particles of {} mm, {} s simulated in {} s on {}",
-            grouped(result.particles.into()),
+            "{} of {} mm, {} s simulated in {} s on {}",
+            count(result.particles.into(), "particle"),
             three_digits(1e3 * result.spacing_m),
             three_digits(result.simulated_s),
             three_digits(result.wall_s),
@@ -224,7 +224,10 @@ fn describe(result: &Calorimeter) -> String {
         ));
     }
     if result.lost_particles > 0 {
-        lines.push(format!("{} particles were lost", result.lost_particles));
+        lines.push(format!(
+            "lost: {}",
+            count(result.lost_particles, "particle")
+        ));
     }
     lines.join("\n")
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure, Format, device, emit, output};
 use vitriol_shaders::Library;
 
@@ -61,7 +62,12 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
 
 fn whether_all_passed(all: &Extremes) -> Result<(), Failure> {
     if all.failed > 0 {
-        return Err(format!("{} of {} cases failed", all.failed, all.cases)).other();
+        return Err(format!(
+            "{} of {} failed",
+            all.failed,
+            count(all.cases as u64, "case")
+        ))
+        .other();
     }
     Ok(())
 }
@@ -78,13 +84,13 @@ fn describe_one(finding: &Finding) -> String {
         .map(|(name, times)| format!("{name}: {times}"))
         .collect();
     format!(
-        "case {}: {}\n{verdict}\n{} particles, {} steps; speed {:.4} of v_max, energy {:.4} of \
+        "case {}: {}\n{verdict}\n{}, {}; speed {:.4} of v_max, energy {:.4} of \
          what was turned over, {:.4} m/s at the end\nacid {:.1e}, mass {:.1e}, enthalpy {:.1e}\n\
          limiters: {}",
         finding.case,
         finding.label,
-        finding.particles,
-        finding.steps,
+        count(finding.particles as u64, "particle"),
+        count(finding.steps, "step"),
         finding.speed_over_max,
         finding.energy_excess,
         finding.end_speed,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use vitriol_gpu::Gpu;
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -128,16 +129,16 @@ fn reasons(recipe: &Recipe, run: &Run) -> Vec<String> {
     };
     hold(
         run.not_finite == 0,
-        format!("{} numbers are not finite", run.not_finite),
+        format!("not finite: {}", count(run.not_finite, "number")),
     );
     let taken_out = run.counters.nan_particles;
     hold(
         taken_out == 0,
-        format!("{taken_out} particles were taken out"),
+        format!("taken out: {}", count(taken_out.into(), "particle")),
     );
     hold(
         run.lost == 0,
-        format!("{} particles are beyond a wall", run.lost),
+        format!("beyond a wall: {}", count(run.lost, "particle")),
     );
     let v_max = recipe.v_max;
     hold(

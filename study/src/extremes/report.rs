@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use vitriol_run::DeviceStatement;
+use vitriol_run::units::count;
 
 use super::judge::{Finding, Verdict};
 use crate::merge::{MergeError, alike, devices, in_order, largest, numbers};
@@ -192,11 +193,11 @@ fn field(message: &str) -> String {
 /// The table as text for people.
 pub fn describe(all: &Extremes) -> String {
     let mut text = format!(
-        "{}, {}\n{} cases of seed {}: {} passed, {} refused at load, {} failed, in {:.0} s\n\n\
+        "{}, {}\n{} of seed {}: {} passed, {} refused at load, {} failed, in {:.0} s\n\n\
          extreme                       cases  passed  limited  refused  failed\n",
         all.device.name,
         all.device.driver,
-        all.cases,
+        count(all.cases as u64, "case"),
         all.seed,
         all.passed,
         all.refused,

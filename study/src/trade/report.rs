@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use vitriol_run::DeviceStatement;
-use vitriol_run::units::percent;
+use vitriol_run::units::{count, percent};
 
 use super::boil::{Quartiles, Seeds};
 use super::constants::Change;
@@ -263,7 +263,11 @@ pub fn describe(trade: &Trade) -> String {
         let _ = writeln!(t, "{name} over {by}: order {order:.2}");
     }
     if trade.skipped > 0 {
-        let _ = writeln!(t, "{} settings not tried for want of time", trade.skipped);
+        let _ = writeln!(
+            t,
+            "not tried for want of time: {}",
+            count(trade.skipped as u64, "setting")
+        );
     }
     let [first, end] = trade.cases;
     if end - first < trade.of {

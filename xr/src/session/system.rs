@@ -20,8 +20,9 @@ pub(super) struct ConnectedHeadset {
     pub blend: xr::EnvironmentBlendMode,
 }
 
-/// OpenXR's loader.
+/// OpenXR's loader, where it has a runtime to load.
 pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
+    probe::check()?;
     crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 

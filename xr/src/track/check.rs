@@ -118,7 +118,18 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
             "each frame has a higher step than the one before",
         ));
     }
-    if frame.time_ns <= time_ns {
+    if frame.time_ns == time_ns {
+        return Err(Flaw::new(
+            names::FRAME,
+            "log_time",
+            format!(
+                "is {time_ns} ns in two frames, of steps {step} and {}",
+                frame.step
+            ),
+            "each frame is later than the one before",
+        ));
+    }
+    if frame.time_ns < time_ns {
         return Err(Flaw::new(
             names::FRAME,
             "log_time",

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use vitriol_lesson::Attempt;
+use vitriol_run::units::count;
 
 /// How far what is found on two devices may be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,8 +82,8 @@ impl Agreement {
         let mut agreement = Self::default();
         if recorded.len() != found.len() {
             agreement.beyond.push(format!(
-                "{} attempts in the recording, {} found",
-                recorded.len(),
+                "{} in the recording, {} found",
+                count(recorded.len() as u64, "attempt"),
                 found.len()
             ));
         }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
 use vitriol_lesson::{Lesson, Mode};
+use vitriol_run::units::count;
 
 use super::agreement::{Agreement, Tolerance};
 
@@ -123,7 +124,11 @@ impl Agreement {
     ) -> Self {
         let [a, b] = [recorded, found].map(<[Verdict]>::len);
         if a != b {
-            let text = format!("the lesson was begun {a} times in the recording, {b} times found");
+            let text = format!(
+                "the lesson was begun {} in the recording, {} found",
+                count(a as u64, "time"),
+                count(b as u64, "time")
+            );
             self.beyond.push(text);
         }
         for (attempt, (recorded, found)) in (1..).zip(recorded.iter().zip(found)) {
@@ -156,7 +161,8 @@ impl Agreement {
         let [a, b] = both.map(|it| it.points);
         // A rule's are a share of the steps'.
         if a != b && !recorded.rule {
-            beyond(format!("{a} points in the recording, {b} found"));
+            let a = count(a.into(), "point");
+            beyond(format!("{a} in the recording, {b} found"));
             return;
         }
         if let [Some(a), Some(b)] = both.map(|it| it.evidence_s) {

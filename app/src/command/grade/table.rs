@@ -227,13 +227,14 @@ pub fn text(class: &Class) -> String {
         class.failed,
         class.taken
     );
-    if class.refuted() > 0 {
-        let _ = writeln!(
+    let _ = match class.refuted() {
+        0 => Ok(()),
+        1 => writeln!(text, "1 attempt did not happen as its recording says"),
+        refuted => writeln!(
             text,
-            "{} attempts did not happen as their recordings say",
-            class.refuted()
-        );
-    }
+            "{refuted} attempts did not happen as their recordings say"
+        ),
+    };
     if let Some(table) = &class.table {
         let _ = writeln!(text, "table   {table}");
     }

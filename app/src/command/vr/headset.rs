@@ -2,11 +2,19 @@
 
 use vitriol_gpu::Timestamps;
 use vitriol_run::device;
-use vitriol_xr::{OpenXr, OpenXrOptions};
+use vitriol_xr::{OpenXr, OpenXrOptions, probe};
 
 use vitriol_session::blame::blame;
 use vitriol_session::foveating::Foveating;
 use vitriol_session::panel::PANEL;
+
+/// Whether a runtime is chosen that could open it.
+///
+/// # Errors
+/// [`vitriol_run::Failure::NoDevice`] where none is, with the remedy.
+pub(super) fn check() -> Result<(), vitriol_run::Failure> {
+    probe::check().map_err(blame)
+}
 
 /// Opens it, and waits for one that is not there yet.
 ///

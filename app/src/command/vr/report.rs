@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use vitriol_lesson::Attempt;
 use vitriol_lesson::procedure::Verdict;
-use vitriol_run::units::{grouped, three_digits};
+use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Blame, DeviceStatement, Failure, device};
 
 use crate::command::keeping::Kept;
@@ -178,7 +178,10 @@ fn governed(governor: &GovernorReport) -> String {
         let cause = governor.cause.as_deref().unwrap_or("as was asked for");
         return format!("settings fixed: {cause}\n");
     }
-    let mut text = format!("settings changed {} times to keep pace\n", governor.changes);
+    let mut text = format!(
+        "settings changed {} to keep pace\n",
+        count(governor.changes, "time")
+    );
     for FramesWith { setting, frames } in &governor.settings {
         let [substeps, iterations] = setting.solver;
         let picture = 100.0 * setting.resolution;
@@ -189,9 +192,9 @@ fn governed(governor: &GovernorReport) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {substeps} × {iterations}, picture {picture:.0} %{aside}, {:?}: {} frames",
+            "  {substeps} × {iterations}, picture {picture:.0} %{aside}, {:?}: {}",
             setting.filter,
-            grouped(*frames)
+            count(*frames, "frame")
         );
     }
     text
@@ -208,25 +211,25 @@ fn waited(waits: &WaitsReport) -> String {
         return "never".into();
     }
     format!(
-        "{} times, {total_ms:.3} ms in all, {longest_ms:.3} ms at most",
-        grouped(*waits)
+        "{}, {total_ms:.3} ms in all, {longest_ms:.3} ms at most",
+        count(*waits, "time")
     )
 }
 
 /// It in words, as the terminal shows it.
 pub(super) fn describe(session: &SessionReport) -> String {
     let mut text = format!(
-        "{}\n{}, {} particles; {} steps, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
-         {} frames, {} missed\n",
+        "{}\n{}, {}; {}, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
+         {}, {} missed\n",
         session.headset,
         session.scene,
-        grouped(session.fluid_particles),
-        session.steps,
+        count(session.fluid_particles, "particle"),
+        count(session.steps, "step"),
         three_digits(session.simulated_s),
         three_digits(session.slow_motion_s),
         session.lost_particles,
         session.nan_particles,
-        session.frames,
+        count(session.frames, "frame"),
         session.missed_frames,
     );
     text += &governed(&session.governor);
@@ -282,8 +285,8 @@ pub(super) fn describe(session: &SessionReport) -> String {
         {
             let _ = writeln!(
                 text,
-                "{} frames {kind}: waited for the queue {}, for memory {}",
-                grouped(frames),
+                "{} {kind}: waited for the queue {}, for memory {}",
+                count(frames, "frame"),
                 waited(&queue_lock),
                 waited(&memory_lock)
             );
@@ -300,8 +303,8 @@ pub(super) fn describe(session: &SessionReport) -> String {
     let _ = match (&sound.buffered_ms, &sound.cause) {
         (Some(held), None) => writeln!(
             text,
-            "sound: {held:.1} ms buffered, ran dry {} times",
-            sound.underflows
+            "sound: {held:.1} ms buffered, ran dry {}",
+            count(sound.underflows, "time")
         ),
         (_, Some(cause)) => writeln!(text, "no sound: {cause}"),
         (None, None) => Ok(()),
@@ -319,8 +322,8 @@ pub(super) fn describe(session: &SessionReport) -> String {
     if let Some(recording) = &session.recording {
         let _ = writeln!(
             text,
-            "recorded {} steps, not {}{}",
-            grouped(recording.steps),
+            "recorded {}, not {}{}",
+            count(recording.steps, "step"),
             recording.unwritten,
             recording
                 .cause
@@ -332,7 +335,11 @@ pub(super) fn describe(session: &SessionReport) -> String {
         let Verdict {
             lesson, points, of, ..
         } = verdict;
-        let _ = writeln!(text, "lesson {lesson}: {points} of {of} points");
+        let _ = writeln!(
+            text,
+            "lesson {lesson}: {points} of {}",
+            count((*of).into(), "point")
+        );
     }
     let _ = write!(text, "state {}", session.state_hash);
     text

@@ -221,6 +221,12 @@ fn order() {
     // Step 7 has the time of step 5.
     let back = refusal(|raw| raw.log_time = super::time_ns(5) as u64);
     assert_says(&back, &["step 7", "log_time", "goes backwards", "later"]);
+    let same = refusal(|raw| raw.log_time = super::time_ns(6) as u64);
+    assert_says(
+        &same,
+        &["step 7", "log_time", "in two frames, of steps 6 and 7"],
+    );
+    assert!(!same.contains("backwards"), "{same}");
     let beyond = refusal(|raw| raw.log_time = u64::MAX);
     assert_says(&beyond, &["log_time", "negative or beyond"]);
     let apart = refusal(|raw| raw.log_time += u64::from(raw.topic == "/xr/input/left"));
@@ -313,7 +319,10 @@ fn the_writer_refuses_too() {
             "thumbstick_y is NaN",
         ),
         (|f| f.info.fov[1].up = f32::INFINITY, "fov[1].up"),
-        (|f| f.time_ns = super::time_ns(0), "goes backwards"),
+        (
+            |f| f.time_ns = super::time_ns(0),
+            "in two frames, of steps 0 and 1",
+        ),
         (|f| f.step = 0, "sequence"),
     ];
     let dir = tempfile::tempdir().unwrap();
