@@ -49,48 +49,92 @@ pub struct Cli {
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    // In the order of the help: the laboratory, the program itself, a class, what measures.
     /// Replay a recorded pour and make its film and report
     Replay(Box<ReplayArgs>),
-    /// Grade a class's recordings: a table of students with points and incidents
-    #[cfg(feature = "class")]
-    Grade(GradeArgs),
-    /// Write a run for other programs: particles, surfaces, measurements, recordings
-    #[cfg(feature = "export")]
-    Export(ExportArgs),
-    /// Replay a recorded pour up to a time and take one picture
-    Picture(PictureArgs),
     /// Pour by hand, in a headset
     #[cfg(feature = "session")]
     Vr(Box<VrArgs>),
-    /// Serve the instructor's console for a class, whose programs dial it
-    #[cfg(feature = "class")]
-    Hub(HubArgs),
+    /// Replay a recorded pour up to a time and take one picture
+    Picture(PictureArgs),
+    /// Write a run for other programs: particles, surfaces, measurements, recordings
+    #[cfg(feature = "export")]
+    Export(ExportArgs),
     /// Convert, list or look into pose tracks
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
     Scenes(ScenesArgs),
-    /// What measures.
-    #[cfg(feature = "study")]
-    #[command(flatten)]
-    Study(vitriol_study::cli::Command),
     /// List the lessons, or check and show one
     Lesson(LessonArgs),
-    /// Delete all that is kept of a student
-    #[cfg(feature = "class")]
-    Forget(ForgetArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
     /// Write the manual's pages, completions for bash, fish and zsh, and the report's JSON schema
     Pages(PagesArgs),
+    /// Grade a class's recordings: a table of students with points and incidents
+    #[cfg(feature = "class")]
+    Grade(GradeArgs),
+    /// Serve the instructor's console for a class, whose programs dial it
+    #[cfg(feature = "class")]
+    Hub(HubArgs),
+    /// Delete all that is kept of a student
+    #[cfg(feature = "class")]
+    Forget(ForgetArgs),
+    /// What measures.
+    #[cfg(feature = "study")]
+    #[command(flatten)]
+    Study(vitriol_study::cli::Command),
 }
 
 #[cfg(test)]
 mod tests {
+    use std::any::TypeId;
+
     use super::*;
     use clap::CommandFactory;
 
     #[test]
     fn definition_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    /// Without it `--seconds -1` would be advised to be a file's name.
+    #[test]
+    fn each_number_may_be_negative_so_that_its_bound_is_named() {
+        let numbers = [
+            TypeId::of::<f32>(),
+            TypeId::of::<f64>(),
+            TypeId::of::<u32>(),
+            TypeId::of::<u64>(),
+            TypeId::of::<usize>(),
+        ];
+        let mut found = 0;
+        for command in Cli::command().get_subcommands() {
+            for argument in command.get_arguments() {
+                let holds = argument.get_value_parser().type_id();
+                if argument.get_action().takes_values() && numbers.iter().any(|it| holds == *it) {
+                    let name = (command.get_name(), argument.get_id());
+                    assert!(argument.is_allow_negative_numbers_set(), "{name:?}");
+                    found += 1;
+                }
+            }
+        }
+        assert!(found >= 4, "{found} numbers");
+    }
+
+    /// A teacher's commands stand together, below those of the laboratory.
+    #[cfg(all(
+        feature = "session",
+        feature = "class",
+        feature = "export",
+        feature = "study"
+    ))]
+    #[test]
+    fn help_begins_with_the_laboratory() {
+        let command = Cli::command();
+        let names: Vec<&str> = command.get_subcommands().map(|it| it.get_name()).collect();
+        assert_eq!(names[..4], ["replay", "vr", "picture", "export"]);
+        let of_class = names.iter().position(|it| *it == "grade");
+        let after = of_class.map(|at| &names[at..at + 4]);
+        assert_eq!(after, Some(&["grade", "hub", "forget", "bench"][..]));
     }
 }

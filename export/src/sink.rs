@@ -1,11 +1,10 @@
 //! Where each format's files come from, a moment at a time.
 
 use std::cell::OnceCell;
-use std::io::Write;
 
-use vitriol_run::output::{OutDir, Staged};
+use vitriol_run::output::{OutDir, Staged, unwritten};
 use vitriol_run::particles::Particles;
-use vitriol_run::{Blame, Failure, Laboratory, Moment, Sample};
+use vitriol_run::{Blame, Cause, Failure, Laboratory, Moment, Sample};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::World;
@@ -138,14 +137,6 @@ fn part_name(what: &str, part: u32, ending: &str) -> String {
     }
 }
 
-/// Ends a file that was written bit by bit.
-pub(crate) fn keep(staged: Staged, out: &mut OutDir) -> Result<(), Failure> {
-    let path = staged.path.clone();
-    staged.keep().other()?;
-    out.adopt(path);
-    Ok(())
-}
-
 /// Particles, a `.vtu` a moment and a list of all of a scene.
 #[derive(Default)]
 pub struct Vtk {
@@ -164,10 +155,8 @@ impl Vtk {
             }
         };
         let list = self.list.insert(list);
-        let mut file = list.try_clone().other()?;
-        let before = vtk::LIST[usize::from(!begins)];
-        file.write_all(before.as_bytes()).other()?;
-        file.write_all(text.as_bytes()).other()
+        list.write(vtk::LIST[usize::from(!begins)].as_bytes())?;
+        list.write(text.as_bytes())
     }
 }
 
@@ -187,9 +176,8 @@ impl Sink for Vtk {
         let Some(list) = self.list.take() else {
             return Ok(());
         };
-        let mut file = list.try_clone().other()?;
-        file.write_all(vtk::LIST[2].as_bytes()).other()?;
-        keep(list, out)
+        list.write(vtk::LIST[2].as_bytes())?;
+        out.keep(list)
     }
 }
 
@@ -303,8 +291,8 @@ impl Measurements {
 
     fn end(&mut self, out: &mut OutDir) -> Result<(), Failure> {
         if let Some((_, table, staged)) = self.begun.take() {
-            table.finish()?;
-            keep(staged, out)?;
+            table.finish().map_err(unwritten(&staged.path))?;
+            out.keep(staged)?;
         }
         Ok(())
     }
@@ -316,11 +304,16 @@ impl Measurements {
             TableFormat::Parquet => "parquet",
         };
         let staged = out.stage(&part_name("measurements", self.part, ending))?;
-        let (file, columns) = (staged.try_clone().other()?, columns(first));
-        let table: Box<dyn Table> = match self.format {
-            TableFormat::Csv => Box::new(Csv::new(file, &columns)?),
-            TableFormat::Parquet => Box::new(Parquet::new(file, &columns)?),
+        let columns = columns(first);
+        let begin = || -> Result<Box<dyn Table>, Cause> {
+            let file = staged.try_clone()?;
+            let table: Box<dyn Table> = match self.format {
+                TableFormat::Csv => Box::new(Csv::new(file, &columns)?),
+                TableFormat::Parquet => Box::new(Parquet::new(file, &columns)?),
+            };
+            Ok(table)
         };
+        let table = begin().map_err(unwritten(&staged.path))?;
         self.begun = Some((columns, table, staged));
         Ok(())
     }
@@ -331,8 +324,9 @@ impl Sink for Measurements {
         if self.begun.is_none() {
             self.begin(sample, out)?;
         }
-        if let Some((columns, table, _)) = &mut self.begun {
-            table.row(columns, sample)?;
+        if let Some((columns, table, staged)) = &mut self.begun {
+            let written = table.row(columns, sample);
+            written.map_err(unwritten(&staged.path))?;
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use parquet::data_type::DoubleType;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use vitriol_run::{Blame, Failure, LedgerSample, Sample};
+use vitriol_run::{Cause, LedgerSample, Sample};
 
 /// Rows that a Parquet file holds together, and this program in memory: a minute and a half.
 const ROWS: usize = 1000;
@@ -158,13 +158,13 @@ pub trait Table {
     ///
     /// # Errors
     /// An error of the file system.
-    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure>;
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Cause>;
 
     /// Ends it.
     ///
     /// # Errors
     /// An error of the file system.
-    fn finish(self: Box<Self>) -> Result<(), Failure>;
+    fn finish(self: Box<Self>) -> Result<(), Cause>;
 }
 
 /// A table as CSV (RFC 4180).
@@ -175,25 +175,25 @@ impl Csv {
     ///
     /// # Errors
     /// An error of the file system.
-    pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, Cause> {
         let mut writer = csv::WriterBuilder::new()
             .terminator(csv::Terminator::CRLF)
             .from_writer(BufWriter::new(file));
         let header = columns.iter().map(|column| &column.header);
-        writer.write_record(header).other()?;
+        writer.write_record(header)?;
         Ok(Self(writer))
     }
 }
 
 impl Table for Csv {
-    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure> {
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Cause> {
         let cells = columns.iter().map(|column| column.value(sample));
         let cells = cells.map(|cell| cell.map_or_else(String::new, |value| value.to_string()));
-        self.0.write_record(cells).other()
+        Ok(self.0.write_record(cells)?)
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), Failure> {
-        self.0.flush().other()
+    fn finish(mut self: Box<Self>) -> Result<(), Cause> {
+        Ok(self.0.flush()?)
     }
 }
 
@@ -209,50 +209,50 @@ impl Parquet {
     ///
     /// # Errors
     /// An error of the file system.
-    pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
-        let field = |column: &Column| -> Result<_, Failure> {
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, Cause> {
+        let field = |column: &Column| -> Result<_, Cause> {
             let field = Type::primitive_type_builder(&column.header, Physical::DOUBLE)
                 .with_repetition(Repetition::OPTIONAL)
                 .build();
-            Ok(Arc::new(field.other()?))
+            Ok(Arc::new(field?))
         };
-        let fields: Result<Vec<_>, Failure> = columns.iter().map(field).collect();
+        let fields: Result<Vec<_>, Cause> = columns.iter().map(field).collect();
         let schema = Type::group_type_builder("measurements").with_fields(fields?);
-        let schema = Arc::new(schema.build().other()?);
+        let schema = Arc::new(schema.build()?);
         let properties = WriterProperties::builder()
             .set_compression(Compression::UNCOMPRESSED)
             .set_created_by(concat!("vitriol ", env!("CARGO_PKG_VERSION")).into());
         let file = BufWriter::new(file);
         let writer = SerializedFileWriter::new(file, schema, Arc::new(properties.build()));
         Ok(Self {
-            writer: writer.other()?,
+            writer: writer?,
             rows: columns.iter().map(|_| Vec::new()).collect(),
         })
     }
 
-    fn write_rows(&mut self) -> Result<(), Failure> {
+    fn write_rows(&mut self) -> Result<(), Cause> {
         if self.rows.first().is_none_or(Vec::is_empty) {
             return Ok(());
         }
-        let mut group = self.writer.next_row_group().other()?;
+        let mut group = self.writer.next_row_group()?;
         for column in &mut self.rows {
-            let Some(mut writer) = group.next_column().other()? else {
+            let Some(mut writer) = group.next_column()? else {
                 break;
             };
             let present: Vec<f64> = column.iter().flatten().copied().collect();
             let levels: Vec<i16> = column.iter().map(|value| value.is_some().into()).collect();
             let typed = writer.typed::<DoubleType>();
-            typed.write_batch(&present, Some(&levels), None).other()?;
-            writer.close().other()?;
+            typed.write_batch(&present, Some(&levels), None)?;
+            writer.close()?;
             column.clear();
         }
-        group.close().other()?;
+        group.close()?;
         Ok(())
     }
 }
 
 impl Table for Parquet {
-    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure> {
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Cause> {
         for (column, values) in columns.iter().zip(&mut self.rows) {
             values.push(column.value(sample));
         }
@@ -262,12 +262,11 @@ impl Table for Parquet {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), Failure> {
+    fn finish(mut self: Box<Self>) -> Result<(), Cause> {
         self.write_rows()?;
-        let file = self.writer.into_inner().other()?;
+        let file = self.writer.into_inner()?;
         file.into_inner()
-            .map_err(std::io::IntoInnerError::into_error)
-            .other()?;
+            .map_err(std::io::IntoInnerError::into_error)?;
         Ok(())
     }
 }

@@ -1,6 +1,11 @@
 //! Values of arguments that commands of the program and of the study have.
+//!
+//! Options with numbers take negative ones too (`allow_negative_numbers`): their parser names the bound, where clap would
+//! advise to give the number as a file.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+
+use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
 
 /// One of a type's values by its name; each value is given with its help.
@@ -77,15 +82,92 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A finite number, zero or above: a moment may be a run's first.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err("give a number of 0 or more, such as 2.5".into()),
+    }
+}
+
+/// A whole number from `least` on, as far as its type counts.
+pub fn whole<T>(least: u64) -> impl TypedValueParser<Value = T>
+where
+    T: TryFrom<u64> + Clone + Send + Sync + 'static,
+{
+    move |text: &str| -> Result<T, String> {
+        let number = text.parse::<u64>().ok().filter(|number| *number >= least);
+        number
+            .and_then(|number| T::try_from(number).ok())
+            .ok_or_else(|| {
+                let most = u64::MAX >> (64 - 8 * size_of::<T>());
+                format!("give a whole number from {least} to {most}")
+            })
+    }
+}
+
+/// The path of a file that is to be made. Its name has the ending of the one format that is written into it, so that it promises no
+/// other one.
+pub fn file_of(ending: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path: PathBuf| {
+        let ends = path.extension();
+        if ends.is_some_and(|it| it.eq_ignore_ascii_case(ending)) {
+            return Ok(path);
+        }
+        Err(format!(
+            "what is written is a .{ending} file; give a name that ends in .{ending}"
+        ))
+    })
+}
+
 #[cfg(test)]
 mod tests {
+    use std::ffi::OsStr;
+
+    use clap::{Arg, Command};
+
     use super::*;
 
     #[test]
     fn positive_numbers_are_finite() {
         assert_eq!(positive("2.5"), Ok(2.5));
+        assert_eq!(not_negative("0"), Ok(0.0));
         for wrong in ["0", "-1", "NaN", "inf", "2,5"] {
             assert!(positive(wrong).is_err(), "{wrong}");
+            assert!(wrong == "0" || not_negative(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    fn parsed<T>(parser: &impl TypedValueParser<Value = T>, text: &str) -> Result<T, String> {
+        let (command, arg) = (Command::new("x"), Arg::new("n"));
+        let value = parser.parse_ref(&command, Some(&arg), OsStr::new(text));
+        value.map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn whole_numbers_have_the_bounds_of_their_type() {
+        let jobs = whole::<u32>(1);
+        assert_eq!(parsed(&jobs, "1"), Ok(1));
+        assert_eq!(parsed(&jobs, "4294967295"), Ok(u32::MAX));
+        for wrong in ["0", "-1", "4294967296", "x", "1.5"] {
+            let said = parsed(&jobs, wrong).err().unwrap_or_default();
+            assert!(said.contains("from 1 to 4294967295"), "{wrong}: {said}");
+        }
+        let seed = whole::<u64>(0);
+        assert_eq!(parsed(&seed, "18446744073709551615"), Ok(u64::MAX));
+        let said = parsed(&seed, "-1").err().unwrap_or_default();
+        assert!(said.contains("from 0 to 18446744073709551615"), "{said}");
+    }
+
+    #[test]
+    fn a_files_name_has_the_ending_of_what_is_written() {
+        let picture = file_of("png");
+        for right in ["a.png", "b/c.d.PNG"] {
+            assert_eq!(parsed(&picture, right), Ok(PathBuf::from(right)));
+        }
+        for wrong in ["a.jpg", "a", ".png", "png", "a.png.mp4"] {
+            let said = parsed(&picture, wrong).err().unwrap_or_default();
+            assert!(said.contains("ends in .png"), "{wrong}: {said}");
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Standard output: human text, or exactly one JSON object.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use serde::Serialize;
 
 use crate::failure::{Blame, Failure};
+use crate::output::unwritten;
 
 /// How a command hands over its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +40,9 @@ pub fn emit<T: Serialize>(
         .write_all(out.as_bytes())
         .and_then(|()| stdout.flush())
     {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error).other(),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(unwritten(Path::new("standard output"))(error))
+        }
         _ => Ok(()),
     }
 }

@@ -15,8 +15,8 @@ use crate::film_error::FilmError;
 use crate::h264::H264;
 use crate::output::Staged;
 use crate::soundtrack::Soundtrack;
-use crate::subtitles::{self, Subtitles};
-use muxide::api::{AudioCodec, Muxer, MuxerBuilder, VideoCodec};
+use crate::subtitles::{self, Subtitles, SubtitlesError};
+use muxide::api::{AudioCodec, Muxer, MuxerBuilder, MuxerError, VideoCodec};
 use vitriol_sound::RATE;
 
 /// Frames that may wait for the encoder: enough to even out a slow key frame,
@@ -92,7 +92,7 @@ impl Film {
         };
         let encoder = std::thread::Builder::new()
             .name("film".into())
-            .spawn(move || shape.encode(staged, &queue, &give_back))
+            .spawn(move || shape.film(staged, &queue, &give_back))
             .map_err(unwritten(path))?;
         Ok(Self {
             frame_bytes: width as usize * height as usize * 4,
@@ -158,7 +158,10 @@ impl Film {
         let staged = self.end()?;
         let path = staged.path.clone();
         let mut file = staged.try_clone().map_err(unwritten(&path))?;
-        subtitles::add(&mut file, self.size, texts)?;
+        subtitles::add(&mut file, self.size, texts).map_err(|error| match error {
+            SubtitlesError::File(source) => unwritten(&path)(source),
+            error => error.into(),
+        })?;
         staged.keep().map_err(unwritten(&path))?;
         Ok(path)
     }
@@ -197,6 +200,21 @@ struct Shape {
 }
 
 impl Shape {
+    /// Encodes what comes. The muxer's errors of the file system name no file, and these do.
+    fn film(
+        self,
+        staged: Staged,
+        queue: &Receiver<Part>,
+        give_back: &SyncSender<Vec<u8>>,
+    ) -> Result<Staged, FilmError> {
+        let path = staged.path.clone();
+        let encoded = self.encode(staged, queue, give_back);
+        encoded.map_err(|error| match error {
+            FilmError::Mux(MuxerError::Io(source)) => unwritten(&path)(source),
+            error => error,
+        })
+    }
+
     fn encode(
         self,
         staged: Staged,
@@ -252,5 +270,45 @@ impl Shape {
         let flushed = flushed.map_err(|error| error.into_error());
         flushed.map_err(unwritten(&staged.path))?;
         Ok(staged)
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::failure::Failure;
+
+    /// The muxer gives the system's error, which says that there is no space, and not for what.
+    #[test]
+    fn a_full_disk_is_said_with_the_films_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let staged = Staged::on_full_disk(&folder.path().join("film.mp4")).unwrap();
+        let shape = Shape {
+            width: 320,
+            height: 180,
+            fps: 30,
+            sounds: false,
+        };
+        // Noise, of which a second is more than a buffer holds: the disk is met before the last bytes are flushed.
+        const FRAMES: u32 = 30;
+        let noise = |frame: u32| {
+            let bytes = (0..320 * 180 * 4_u32).map(|byte| {
+                let mixed = (byte ^ (frame << 20)).wrapping_mul(0x9E37_79B9);
+                ((mixed ^ (mixed >> 15)).wrapping_mul(0x85EB_CA6B) >> 26) as u8
+            });
+            Part::Picture(bytes.collect())
+        };
+        let (parts, queue) = sync_channel(FRAMES as usize);
+        let (give_back, _spent) = sync_channel(1);
+        for frame in 0..FRAMES {
+            parts.send(noise(frame)).unwrap();
+        }
+        drop(parts);
+        let error = shape.film(staged, &queue, &give_back).unwrap_err();
+        let said = Failure::Other(error.into()).to_string();
+        for part in ["film.mp4", "is there room", "No space left"] {
+            assert!(said.contains(part), "{said}");
+        }
     }
 }

@@ -8,7 +8,7 @@ pub use png::ColorType;
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
-use crate::failure::{Blame, Failure};
+use crate::failure::{Blame, Cause, Failure};
 
 /// The report's name in the output folder; it is written last, so a folder
 /// that holds it is a whole run.
@@ -54,8 +54,8 @@ enum OutputError {
     #[error("{path}: could not be written; is there room and permission?")]
     Write {
         path: PathBuf,
-        /// The system's error.
-        source: io::Error,
+        /// The system's error, or that of a format's writer.
+        source: Cause,
     },
 }
 
@@ -65,6 +65,7 @@ impl OutputError {
         if source.kind() == io::ErrorKind::AlreadyExists {
             Self::Exists { path }
         } else {
+            let source = source.into();
             Self::Write { path, source }
         }
     }
@@ -77,6 +78,24 @@ impl From<OutputError> for Failure {
             _ => Self::Input(error.into()),
         }
     }
+}
+
+/// Makes of an error in writing the file at `path` a failure that names it, as every writer's does: the system's own error names no
+/// file.
+pub fn unwritten<E: Into<Cause>>(path: &Path) -> impl FnOnce(E) -> Failure {
+    let path = path.to_owned();
+    move |error| {
+        let source = error.into();
+        OutputError::Write { path, source }.into()
+    }
+}
+
+/// Makes a folder where there is none.
+///
+/// # Errors
+/// [`Failure::Input`] where a file has its name, else [`Failure::Other`].
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
+    Ok(fs::create_dir_all(path).map_err(|source| OutputError::write(path, source))?)
 }
 
 /// A file that is written under a temporary name in its own folder and gets its
@@ -117,6 +136,15 @@ impl Staged {
             .make_in(folder, |path| File::create_new(path))
     }
 
+    /// Writes more of the file.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where the system refuses.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        let written = self.file.as_file().write_all(bytes);
+        written.map_err(unwritten(&self.path))
+    }
+
     /// A second handle to the file being written.
     ///
     /// # Errors
@@ -134,6 +162,17 @@ impl Staged {
         self.file.as_file().sync_all()?;
         self.file.persist_noclobber(&self.path)?;
         Ok(())
+    }
+
+    /// One on a disk that is full.
+    #[cfg(all(test, target_os = "linux"))]
+    pub(crate) fn on_full_disk(path: &Path) -> io::Result<Self> {
+        let full = File::options().write(true).open("/dev/full")?;
+        let beside = tempfile::TempPath::try_from_path(path.with_extension("part"))?;
+        Ok(Self {
+            file: NamedTempFile::from_parts(full, beside),
+            path: path.to_owned(),
+        })
     }
 }
 
@@ -292,6 +331,18 @@ impl OutDir {
         Ok(Staged::create(&path).map_err(|source| OutputError::write(&path, source))?)
     }
 
+    /// Gives a file that [`OutDir::stage`] began its name, and counts it among the run's.
+    ///
+    /// # Errors
+    /// As for [`write_new`].
+    pub fn keep(&mut self, staged: Staged) -> Result<(), Failure> {
+        let path = staged.path.clone();
+        let kept = staged.keep();
+        kept.map_err(|source| OutputError::write(&path, source))?;
+        self.adopt(path);
+        Ok(())
+    }
+
     /// Counts a file that someone else wrote into the folder among the run's.
     pub fn adopt(&mut self, file: PathBuf) {
         self.files.push(file);
@@ -300,11 +351,11 @@ impl OutDir {
     /// How many files of the run it holds, and how many bytes they have.
     ///
     /// # Errors
-    /// An error of the system.
-    pub fn sizes(&self) -> io::Result<(usize, u64)> {
+    /// [`Failure::Other`] where one cannot be looked at any more.
+    pub fn sizes(&self) -> Result<(usize, u64), Failure> {
         let mut bytes = 0;
         for file in &self.files {
-            bytes += fs::metadata(file)?.len();
+            bytes += fs::metadata(file).map_err(unwritten(file))?.len();
         }
         Ok((self.files.len(), bytes))
     }
@@ -376,5 +427,41 @@ impl Drop for OutDir {
             // Succeeds on an empty folder only, which is the intention.
             let _ = fs::remove_dir(&self.path);
         }
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// The system's error says that there is no space, and not for what.
+    #[test]
+    fn a_full_disk_is_said_with_the_files_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("particles.vtu.series");
+        let staged = Staged::on_full_disk(&path).unwrap();
+        let failure = staged.write(b"[").unwrap_err();
+        assert!(matches!(failure, Failure::Other(_)), "{failure}");
+        let said = failure.to_string();
+        for part in ["particles.vtu.series", "is there room", "No space left"] {
+            assert!(said.contains(part), "{said}");
+        }
+    }
+
+    #[test]
+    fn what_is_in_the_way_of_a_file_or_folder_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut out = OutDir::take(Some(folder.path()), "x").unwrap();
+        let staged = out.stage("measurements.csv").unwrap();
+        fs::create_dir(out.join("measurements.csv")).unwrap();
+        let said = out.keep(staged).unwrap_err().to_string();
+        assert!(said.contains("measurements.csv: exists"), "{said}");
+        let file = folder.path().join("grades");
+        fs::write(&file, "").unwrap();
+        let said = make_folder(&file).unwrap_err().to_string();
+        assert!(said.contains("grades: exists"), "{said}");
+        let said = make_folder(&file.join("class")).unwrap_err().to_string();
+        assert!(said.contains("class: could not be written"), "{said}");
     }
 }

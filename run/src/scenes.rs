@@ -110,8 +110,8 @@ fn name_of(file: &str) -> String {
 fn read(file: &str) -> Result<Text, Failure> {
     if !Path::new(file).exists() {
         return Err(format!(
-            "scene {file:?}: no such file; give a path, or one of the built-in {}",
-            Scene::builtin_names().join(", ")
+            "scene {file:?}: no such file; {}; or give a path",
+            files::suggested(file, &Scene::builtin_names())
         ))
         .input();
     }
@@ -192,5 +192,10 @@ mod tests {
         let message = load(long.to_str().unwrap()).unwrap_err().to_string();
         assert!(message.contains("longer than"), "{message}");
         assert!(load("nowhere").unwrap_err().to_string().contains("beaker"));
+        let misspelt = load("watter-into-acid").unwrap_err().to_string();
+        assert!(
+            misspelt.contains("did you mean water-into-acid?"),
+            "{misspelt}"
+        );
     }
 }

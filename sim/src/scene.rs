@@ -31,6 +31,7 @@ pub use settings::{
 pub use tool::{PANE, Tool, ToolKind, sash_heights};
 
 use crate::chemistry::bubbles::drawn_nuclei;
+use crate::chemistry::table::SolutionTable;
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
 use crate::surface_tension::{HYSTERESIS, SurfaceTension};
@@ -267,14 +268,11 @@ impl Scene {
             .map(|(index, entry)| entry.build(index, &scale, models_losses))
             .collect::<Result<Vec<_>, _>>()?;
         check_flasks(&flasks)?;
-        let hottest = if raw.physical.is_some() {
-            chemistry::HOTTEST_LIQUID
-        } else {
-            f64::INFINITY
-        };
+        // The paper's liquids boil where the scene says.
+        let solutions = raw.physical.map(|_| SolutionTable::new());
         let liquids = (0..)
             .zip(raw.liquid)
-            .map(|(index, entry)| entry.build(index, &scale, &flasks, hottest))
+            .map(|(index, entry)| entry.build(index, &scale, &flasks, solutions.as_ref()))
             .collect::<Result<Vec<_>, _>>()?;
         let tools = (0..)
             .zip(raw.tool)
@@ -363,15 +361,17 @@ impl Scene {
                 fill::count_sites(&flask.profile, spacing)
             };
             if wanted > sites {
-                let error = FillError {
-                    wanted,
-                    sites,
-                    spacing,
-                };
-                return Err(Problem::new(
-                    field,
-                    format!("in flask {:?}: {error}", flask.name),
-                ));
+                // As drawn, as the file gives volumes, to 0.01 mL.
+                let drawn = 1e6 * self.scale.length_scale.powi(3);
+                let rounded = |volume: f64| (volume * drawn * 100.0).round() / 100.0;
+                let fits = rounded(sites as f64 * spacing.powi(3));
+                let problem = format!(
+                    "in flask {:?}: {} mL are asked for, but only {fits} mL fit below the rim with particles of {spacing} m; use less \
+                     liquid, a larger flask or a smaller spacing",
+                    flask.name,
+                    rounded(volume)
+                );
+                return Err(Problem::new(field, problem));
             }
         }
         Ok(())

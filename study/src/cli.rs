@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
-use vitriol_run::arguments::{filter, positive, preset};
+use vitriol_run::arguments::{file_of, filter, positive, preset, whole};
 use vitriol_run::units::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
@@ -53,22 +53,22 @@ pub struct BenchArgs {
     #[arg(long, value_parser = filter(), value_name = "FILTER", requires = "render")]
     pub filter: Option<PictureFilter>,
     /// With --render: one picture of that width and height alone, as on a screen
-    #[arg(long, value_name = "WxH", value_parser = pair, requires = "render")]
+    #[arg(long, value_name = "WxH", value_parser = pair, allow_hyphen_values = true, requires = "render")]
     pub size: Option<[u32; 2]>,
     /// Another program, in turn with ours: as many particles, substeps and iterations. One in Python ends in .py; study/peers has some
     #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["render", "features"])]
     pub against: Vec<PathBuf>,
     /// Time over the number of particles, of blocks at rest, and a figure of it
-    #[arg(long, value_name = "FILE.svg", conflicts_with_all = ["scene", "paper", "features", "render"])]
+    #[arg(long, value_name = "FILE.svg", value_parser = file_of("svg"), conflicts_with_all = ["scene", "paper", "features", "render"])]
     pub scaling: Option<PathBuf>,
     /// With --scaling: most particles of a block
-    #[arg(long, value_name = "N", default_value_t = 4_000_000, requires = "scaling", value_parser = clap::value_parser!(u64).range(1000..))]
+    #[arg(long, value_name = "N", default_value_t = 4_000_000, requires = "scaling", value_parser = whole::<u64>(1000), allow_negative_numbers = true)]
     pub most: u64,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,
     /// Frames to measure, after as many as it takes to warm up
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, default_value_t = 100, value_parser = whole::<u32>(1), allow_negative_numbers = true)]
     pub frames: u32,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
@@ -180,7 +180,7 @@ pub struct CalorimeterArgs {
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,
     /// Seed of the particles' initial jitter
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: u64,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
@@ -211,10 +211,10 @@ pub struct TradeArgs {
     #[arg(long, value_enum, value_name = "PART")]
     pub part: Option<TradePart>,
     /// Seconds after which no further setting is begun
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub within: Option<f64>,
     /// These of the cases that there are: settings, mixes and runs of seeds, in the report's order; without it all of them
-    #[arg(long, value_name = "A..B", value_parser = cases)]
+    #[arg(long, value_name = "A..B", value_parser = cases, allow_negative_numbers = true)]
     pub cases: Option<Range<usize>>,
     /// Run nothing, and make one report of those of ranges of cases: their trade.json
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "part", "within", "cases", "device"])]
@@ -231,19 +231,19 @@ pub struct TradeArgs {
 #[derive(Debug, Args)]
 pub struct ExtremesArgs {
     /// So many cases, those that were thought of first, then random ones; or a range of them, such as 100..200
-    #[arg(long, value_name = "N|A..B", default_value = "2000", value_parser = cases)]
+    #[arg(long, value_name = "N|A..B", default_value = "2000", value_parser = cases, allow_negative_numbers = true)]
     pub cases: Range<usize>,
     /// Run nothing, and make one report of those of ranges of cases: their extremes.json
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["cases", "seed", "only", "jobs", "device"])]
     pub merge: Vec<PathBuf>,
     /// Seed of the random cases
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: u64,
     /// One case only, by its number
-    #[arg(long, value_name = "CASE")]
+    #[arg(long, value_name = "CASE", value_parser = whole::<usize>(0), allow_negative_numbers = true)]
     pub only: Option<usize>,
     /// Cases at a time
-    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, default_value_t = 4, value_parser = whole::<u32>(1), allow_negative_numbers = true)]
     pub jobs: u32,
     /// Folder for extremes.json, and with --only for the case's scene; without it
     /// none are made

@@ -94,10 +94,34 @@ pub fn read_text(file: &Path, what: &'static str, limit: u64) -> Result<String, 
     String::from_utf8(bytes).map_err(|_| FileError::NotText { file: file.into() })
 }
 
+/// How alike a name is to what may be meant by it: clap's measure and bound for options and commands.
+const ALIKE: f64 = 0.7;
+
+/// For the error where a user's `name` is neither a file's nor built in: the built-in one that it is most like, if it is like any, and
+/// all of them.
+pub fn suggested(name: &str, builtin: &[&str]) -> String {
+    let alike = builtin.iter().map(|it| (strsim::jaro(name, it), it));
+    let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
+    let meant = nearest.filter(|(alike, _)| *alike > ALIKE);
+    let meant = meant.map_or_else(String::new, |(_, it)| format!("did you mean {it}? "));
+    format!("{meant}built in are {}", builtin.join(", "))
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_misspelt_name_is_answered_with_the_nearest() {
+        let said = |name| suggested(name, &["two-flasks", "three-flasks", "dilute"]);
+        let all = "built in are two-flasks, three-flasks, dilute";
+        assert_eq!(said("two-flask"), format!("did you mean two-flasks? {all}"));
+        assert_eq!(said("dilutte"), format!("did you mean dilute? {all}"));
+        for other in ["", "my/recording.mcap", "x"] {
+            assert_eq!(said(other), all, "{other}");
+        }
+    }
 
     #[test]
     fn a_file_is_read_up_to_its_limit() {

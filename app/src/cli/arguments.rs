@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use vitriol_run::Colour;
-use vitriol_run::arguments::{filter, named, positive, preset};
+use vitriol_run::arguments::{file_of, filter, named, positive, preset, whole};
 use vitriol_run::units::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
@@ -86,16 +86,16 @@ pub struct ReplayArgs {
     pub preset: Option<Preset>,
     /// In place of a preset: the most accurate setting by which a frame's solution
     /// takes at most so many milliseconds on this device (99th percentile)
-    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with_all = ["preset", "solver"])]
+    #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["preset", "solver"])]
     pub budget_ms: Option<f64>,
     /// Substeps and iterations in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair)]
+    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
-    /// Simulated seconds; without it the whole track
-    #[arg(long, value_name = "S", value_parser = positive)]
+    /// Simulated seconds, for which hands hold still after the track's end; without it the whole track
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Seed of the particles' initial jitter; without it the track's own
-    #[arg(long)]
+    #[arg(long, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
@@ -161,7 +161,7 @@ pub struct TrackArgs {
     #[arg(required_unless_present = "list")]
     pub input: Option<String>,
     /// Write the track of these keyframes to this new MCAP file
-    #[arg(short, long, value_name = "FILE", requires = "input")]
+    #[arg(short, long, value_name = "FILE", value_parser = file_of("mcap"), requires = "input")]
     pub output: Option<PathBuf>,
     /// List the built-in tracks
     #[arg(long, conflicts_with_all = ["input", "output"])]
@@ -175,9 +175,9 @@ pub struct ScenesArgs {
     /// out of it
     #[arg(long)]
     pub cost: bool,
-    /// With --cost: trade of speed for accuracy
-    #[arg(long, value_parser = preset(), default_value = "balanced", requires = "cost")]
-    pub preset: Preset,
+    /// Under this trade of speed for accuracy alone; without it all three are listed, and --cost is of balanced
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
     /// With --cost: device to use, its number or a part of its name
     #[arg(long, requires = "cost")]
     pub device: Option<String>,

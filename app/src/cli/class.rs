@@ -7,7 +7,7 @@ use clap::Args;
 use vitriol_live::listen_address;
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
-use vitriol_run::arguments::preset;
+use vitriol_run::arguments::{preset, whole};
 use vitriol_sim::scene::Preset;
 
 use super::lesson::JudgeArgs;
@@ -30,7 +30,7 @@ pub struct GradeArgs {
     #[command(flatten)]
     pub judge: JudgeArgs,
     /// Tracks at a time; without it as many as there are cores, and one with --verify
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1), allow_negative_numbers = true)]
     pub jobs: Option<u32>,
     /// Folder for a result of each track and the table grades.csv, which is written anew each time; results that are there
     /// and of the same track, scene and preset are taken as they are
@@ -41,7 +41,12 @@ pub struct GradeArgs {
     pub verify: bool,
     /// How far what happens on another device may be from what a track says: a moment, a share of a volume, and a volume
     /// beside that; without it 0.2,5,0.1
-    #[arg(long, value_name = "S,%,ML", requires = "verify")]
+    #[arg(
+        long,
+        value_name = "S,%,ML",
+        allow_hyphen_values = true,
+        requires = "verify"
+    )]
     pub tolerance: Option<Tolerance>,
     /// Device for that: its number or a part of its name (see `vitriol doctor`)
     #[arg(long, requires = "verify")]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use vitriol_run::arguments::{named, positive, preset};
+use vitriol_run::arguments::{named, not_negative, positive, preset, whole};
 use vitriol_run::units::pair;
 use vitriol_sim::scene::Preset;
 
@@ -32,16 +32,16 @@ pub struct ExportArgs {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Moments a second, where the simulation has so many; tables have a row each tenth of a second
-    #[arg(long, value_name = "HZ", value_parser = rate, default_value_t = 30.0, conflicts_with = "at")]
+    #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true, default_value_t = 30.0, conflicts_with = "at")]
     pub rate: f64,
     /// The first moment, s
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "at")]
+    #[arg(long, value_name = "S", value_parser = not_negative, allow_negative_numbers = true, conflicts_with = "at")]
     pub from: Option<f64>,
     /// Simulated seconds; without it the whole track or run
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "at")]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, conflicts_with = "at")]
     pub seconds: Option<f64>,
     /// One moment alone, at this time, s
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = not_negative, allow_negative_numbers = true)]
     pub at: Option<f64>,
     /// A built-in scene's name or a TOML file; without it the scene that the track or run names
     #[arg(long, value_name = "SCENE")]
@@ -50,10 +50,10 @@ pub struct ExportArgs {
     #[arg(long, value_parser = preset())]
     pub preset: Option<Preset>,
     /// Substeps and iterations in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair)]
+    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
     /// Seed of the particles' initial jitter; without it that of the track or run
-    #[arg(long)]
+    #[arg(long, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]

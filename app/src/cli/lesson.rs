@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use vitriol_lesson::{Language, Mode};
-use vitriol_run::arguments::preset;
+use vitriol_run::arguments::{file_of, preset};
 use vitriol_sim::scene::Preset;
 
 /// Arguments of `vitriol lesson`.
@@ -23,6 +23,7 @@ pub struct LessonArgs {
     #[arg(
         long,
         value_name = "FILE",
+        value_parser = file_of("mp4"),
         requires = "lesson",
         conflicts_with = "toml"
     )]

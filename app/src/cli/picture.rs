@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glam::Vec3;
-use vitriol_run::arguments::{filter, positive, preset};
+use vitriol_run::arguments::{file_of, filter, positive, preset};
 use vitriol_run::units::pair;
 use vitriol_run::{Colour, HEAD_FIELD, Look};
 use vitriol_sim::scene::{PictureFilter, Preset};
@@ -28,17 +28,17 @@ pub struct PictureArgs {
     /// recorded with, or else balanced
     #[arg(long, value_parser = preset())]
     pub preset: Option<Preset>,
-    /// Simulated time of the picture, seconds
-    #[arg(long, value_name = "S", value_parser = positive)]
+    /// Simulated time of the picture, seconds, within the track
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub at: f64,
     /// PNG file to be made
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
     pub output: PathBuf,
     /// New folder for what each pass of the liquid's picture leaves behind, a PNG file each
     #[arg(long, value_name = "DIR")]
     pub passes: Option<PathBuf>,
     /// Width and height of a view, pixels
-    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair)]
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair, allow_hyphen_values = true)]
     pub size: [u32; 2],
     /// Both eyes, side by side
     #[arg(long)]
@@ -53,7 +53,7 @@ pub struct PictureArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = place, requires = "eye", allow_hyphen_values = true)]
     pub target: Option<Vec3>,
     /// The eye's field of view from top to bottom, degrees
-    #[arg(long, value_name = "DEG", default_value_t = HEAD_FIELD, value_parser = field, requires = "eye")]
+    #[arg(long, value_name = "DEG", default_value_t = HEAD_FIELD, value_parser = field, allow_negative_numbers = true, requires = "eye")]
     pub field: f32,
     /// Liquid, or particles coloured by this
     #[arg(long, value_parser = colour(), default_value = "liquid", value_name = "COLOUR")]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use vitriol_lesson::{Language, Mode};
-use vitriol_run::arguments::{positive, preset};
+use vitriol_run::arguments::{file_of, positive, preset, whole};
 use vitriol_run::units::pair;
 use vitriol_sim::scene::Preset;
 
@@ -36,10 +36,10 @@ pub struct VrArgs {
     pub preset: Preset,
     /// In place of a preset: the most accurate setting by which a step's solution
     /// takes at most so many milliseconds on this device (99th percentile)
-    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with_all = ["preset", "solver"])]
+    #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["preset", "solver"])]
     pub budget_ms: Option<f64>,
     /// Substeps and iterations of the scene to begin with in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair)]
+    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
     /// How it is drawn
     #[command(flatten)]
@@ -53,7 +53,7 @@ pub struct VrArgs {
     #[arg(long, value_enum, value_name = "FOVEATION")]
     pub foveation: Option<Foveating>,
     /// Seed of the particles' initial jitter
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: u64,
     /// How you are at the bench
     #[arg(long, value_enum, default_value_t, value_name = "POSTURE")]
@@ -65,7 +65,7 @@ pub struct VrArgs {
     #[arg(long)]
     pub breakable: bool,
     /// Keep the session as a pose track in this new file, for `vitriol replay`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file_of("mcap"))]
     pub record: Option<PathBuf>,
     /// What is kept of a student
     #[command(flatten)]
@@ -87,20 +87,21 @@ pub struct VrArgs {
     #[arg(long)]
     pub no_hints: bool,
     /// Measure that many frames, after some to warm up, and end
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1), allow_negative_numbers = true)]
     pub frames: Option<u64>,
     /// In place of a headset images and a clock, worn by who moves as in this
     /// track (by name or file), over and over: for measurements
     #[arg(long, value_name = "TRACK")]
     pub stand_in: Option<String>,
     /// Width and height of an eye's picture of the stand-in, pixels
-    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = pair, requires = "stand_in")]
+    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = pair, allow_hyphen_values = true, requires = "stand_in")]
     pub size: [u32; 2],
     /// Frames a second of the stand-in
-    #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, requires = "stand_in")]
+    #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, allow_negative_numbers = true, requires = "stand_in")]
     pub rate: f64,
     /// So many pages that look at the console meanwhile, of which one sends messages: for measurements
-    #[arg(long, value_name = "N", requires_all = ["stand_in", "frames"], conflicts_with_all = ["no_console", "listen", "hub"])]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>(1), allow_negative_numbers = true)]
+    #[arg(requires_all = ["stand_in", "frames"], conflicts_with_all = ["no_console", "listen", "hub"])]
     pub watchers: Option<usize>,
     /// Device of the stand-in: its number or a part of its name (see `vitriol doctor`)
     #[arg(long, requires = "stand_in")]

@@ -7,6 +7,7 @@ use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Lesson, Mode, SceneFacts};
 use vitriol_run::track::{LESSON, LESSON_HASH, MODE};
 use vitriol_run::{Blame, Failure, Judging, Scenes, in_a_line};
+use vitriol_xr::files;
 use vitriol_xr::track::Track;
 
 use crate::cli::JudgeArgs;
@@ -32,7 +33,15 @@ pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> 
 /// # Errors
 /// [`Failure::Input`] with file, field and what would be right.
 pub fn open(name: &str) -> Result<Lesson, Failure> {
-    let is_builtin = Lesson::builtin_names().contains(&name);
+    let builtin = Lesson::builtin_names();
+    let is_builtin = builtin.contains(&name);
+    if !is_builtin && !Path::new(name).exists() {
+        let known = files::suggested(name, &builtin);
+        return Err(format!(
+            "lesson {name:?}: no such file; {known}; or give a path"
+        ))
+        .input();
+    }
     let lesson = match is_builtin {
         true => Lesson::builtin(name),
         false => Lesson::open(Path::new(name)),

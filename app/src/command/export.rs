@@ -280,12 +280,7 @@ fn times(args: &ExportArgs, plan: &ReplayPlan, whole: Option<f64>) -> Result<Tim
         Some(_) => whole.unwrap_or_else(|| plan.track.duration()),
         None => plan.span.seconds(),
     };
-    if from > end + plan.scene.scale.frame_time {
-        return Err(format!(
-            "the run ends at {end:.3} s, before the first moment at {from} s"
-        ))
-        .input();
-    }
+    plan.reaches(from, end)?;
     Ok(Times {
         from,
         rate: args.at.is_none().then_some(args.rate),
@@ -321,7 +316,7 @@ fn metadata(plan: &ReplayPlan, device: &vitriol_run::DeviceStatement) -> TrackMe
 
 /// Counts what is there, and keeps it.
 fn finished(out: OutDir, formats: &[Exported], moments: u64) -> Result<Done, Failure> {
-    let (files, bytes) = out.sizes().other()?;
+    let (files, bytes) = out.sizes()?;
     let folder = out.path.clone();
     out.complete();
     Ok(Done {

@@ -16,7 +16,7 @@ use vitriol_lesson::procedure::Verdict as LessonVerdict;
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_record::store::Store;
 use vitriol_record::{Session, Timestamp};
-use vitriol_run::output::write_over;
+use vitriol_run::output::{make_folder, write_over};
 use vitriol_run::progress::Runs;
 use vitriol_run::several::at_a_time;
 use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit, interrupt, track};
@@ -74,7 +74,7 @@ pub fn grade(
             ))
             .input();
         }
-        std::fs::create_dir_all(out).other()?;
+        make_folder(out)?;
     }
     let grading = Grading {
         args,

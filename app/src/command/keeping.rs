@@ -8,6 +8,7 @@ use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
 use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
 use vitriol_run::units::count;
+use vitriol_run::output::make_folder;
 use vitriol_run::{Blame, Failure};
 
 use crate::cli::KeepArgs;
@@ -75,7 +76,7 @@ pub fn keeper(args: &KeepArgs) -> Result<Keeper, Failure> {
         class.ok_or("this system tells no folder for data: name the class's file with --class");
     let class = class.input()?;
     if let Some(folder) = class.parent().filter(|_| args.class.is_none()) {
-        std::fs::create_dir_all(folder).other()?;
+        make_folder(folder)?;
     }
     Store::open(&class).input()?;
     let lrs = match (&args.lrs, &args.lrs_token) {

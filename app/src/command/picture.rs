@@ -32,7 +32,7 @@ struct Pictured {
 /// Runs `vitriol picture`; `prepare` makes the experiment.
 ///
 /// # Errors
-/// [`Failure::Input`] for bad track, scene, size or where the file exists;
+/// [`Failure::Input`] for bad track, scene, size, a time after the track's end, or where the file exists;
 /// [`Failure::NoDevice`]; [`Failure::Other`].
 pub fn run(
     args: &PictureArgs,
@@ -50,6 +50,15 @@ pub fn run(
         }
         output::new_dir(dir)?;
     }
+    let plan = ReplayPlan::new(&Ask {
+        track: &args.track,
+        scene: args.scene.as_deref(),
+        preset: args.preset,
+        device: args.device.as_deref(),
+        accept_truncated: args.accept_truncated,
+        ..Ask::default()
+    })?;
+    plan.reaches(args.at, plan.track.duration())?;
     let ReplayPlan {
         track,
         scenes,
@@ -58,14 +67,7 @@ pub fn run(
         preset,
         seed,
         ..
-    } = ReplayPlan::new(&Ask {
-        track: &args.track,
-        scene: args.scene.as_deref(),
-        preset: args.preset,
-        device: args.device.as_deref(),
-        accept_truncated: args.accept_truncated,
-        ..Ask::default()
-    })?;
+    } = plan;
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(

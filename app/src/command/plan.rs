@@ -178,6 +178,21 @@ impl ReplayPlan {
             span,
         })
     }
+
+    /// Whether a moment at `seconds` is before the end of a run that lasts `whole` seconds, give or take a step: after it hands would only
+    /// be held.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a later moment.
+    pub fn reaches(&self, seconds: f64, whole: f64) -> Result<(), Failure> {
+        if seconds > whole + self.scene.scale.frame_time {
+            return Err(format!(
+                "the run ends at {whole:.3} s, before the first moment at {seconds} s; take an earlier one"
+            ))
+            .input();
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]

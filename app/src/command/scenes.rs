@@ -19,7 +19,7 @@ struct SceneInfo {
     scene: SceneStatement,
     description: String,
     flasks: Vec<String>,
-    /// Under each preset.
+    /// Under each preset, or that which was asked for.
     presets: Vec<PresetInfo>,
 }
 
@@ -41,7 +41,8 @@ pub fn run(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
     if args.cost {
         return cost(args, format);
     }
-    let scenes = Scene::builtin_names().into_iter().map(look_into);
+    let names = Scene::builtin_names().into_iter();
+    let scenes = names.map(|name| look_into(name, args.preset));
     let scenes: Vec<SceneInfo> = scenes.collect::<Result<_, _>>()?;
     emit(format, &BTreeMap::from([("scenes", &scenes)]), |_| {
         let texts: Vec<String> = scenes.iter().map(describe).collect();
@@ -75,9 +76,10 @@ struct Costs {
 }
 
 fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
+    let preset = args.preset.unwrap_or(Preset::Balanced);
     let gpu = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let scenes = Scene::builtin_names().into_iter().map(|name| {
-        let scene = Scene::builtin(name).other()?.with_preset(args.preset);
+        let scene = Scene::builtin(name).other()?.with_preset(preset);
         let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;
         let [mut models, mut left_out] = [Vec::new(), Vec::new()];
         for feature in Feature::ALL {
@@ -90,7 +92,7 @@ fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
         }
         Ok(SceneCost {
             scene: name.to_owned(),
-            preset: args.preset.name(),
+            preset: preset.name(),
             fluid_particles: scene.liquids.iter().map(|l| scene.particle_count(l)).sum(),
             models,
             left_out,
@@ -138,9 +140,11 @@ fn describe_cost(cost: &SceneCost) -> String {
     )
 }
 
-fn look_into(name: &str) -> Result<SceneInfo, Failure> {
+fn look_into(name: &str, asked: Option<Preset>) -> Result<SceneInfo, Failure> {
     let scene = Scene::builtin(name).other()?;
-    let presets = Preset::ALL.map(|preset| {
+    let presets = Preset::ALL.into_iter();
+    let presets = presets.filter(|preset| asked.is_none_or(|asked| asked == *preset));
+    let presets = presets.map(|preset| {
         let scene = scene.with_preset(preset);
         PresetInfo {
             preset: preset.name(),
@@ -157,7 +161,7 @@ fn look_into(name: &str) -> Result<SceneInfo, Failure> {
             .collect::<Vec<_>>()
             .join(" "),
         flasks: scene.flasks.iter().map(|f| f.name.clone()).collect(),
-        presets: presets.into(),
+        presets: presets.collect(),
     })
 }
 

@@ -2,6 +2,7 @@
 
 #[cfg(target_os = "linux")]
 pub mod runtime;
+mod bounds;
 mod shown;
 
 use std::fs;
@@ -244,7 +245,7 @@ fn keyframes_become_a_track_and_are_not_overwritten() {
         here,
         &["track", "wave.toml", "-o", "wave.mcap"],
         2,
-        &["wave.mcap", "exists"],
+        &["wave.mcap", "exists", "take that one away"],
     );
     assert_eq!(fs::read(here.join("wave.mcap")).unwrap(), before);
 
@@ -388,7 +389,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         (
             "volume_ml = 150.0",
             "volume_ml = 1500.0",
-            &["liquid", "fit", "use less"],
+            &["liquid", "1500 mL", "mL fit", "use less"],
         ),
         (
             "spacing = 0.0025 ",
@@ -433,12 +434,13 @@ fn bad_input_is_refused_before_anything_is_written() {
         fs::write(here.join("bad.toml"), keyframes.replacen(from, to, 1)).unwrap();
         refuses(
             here,
-            &["track", "bad.toml", "-o", "new"],
+            &["track", "bad.toml", "-o", "new.mcap"],
             2,
             &[&["bad.toml:"], &parts[..]].concat(),
         );
         refuses(here, &["replay", "bad.toml", "--out", "new"], 2, parts);
-        assert!(!here.join("new").exists(), "{to}");
+        let left = ["new", "new.mcap"].map(|name| here.join(name).exists());
+        assert_eq!(left, [false; 2], "{to}");
     }
 
     object(here, &["track", "two-flasks", "-o", "whole.mcap"]);

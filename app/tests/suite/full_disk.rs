@@ -1,6 +1,6 @@
-//! A recording onto a disk that is full for a while: a real one, of memory.
+//! Disks that are full: one for a while, a real one, of memory, and one for ever.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -39,6 +39,19 @@ fn in_own_namespace(folder: &Path) -> Option<Output> {
     let mounts = |flags: &&str| run(flags, "mount -t tmpfs none /mnt").status.success();
     let flags = ["-m", "-rm"].into_iter().find(mounts)?;
     Some(run(flags, SCRIPT))
+}
+
+/// The system's error says that there is no space, and not for what.
+#[test]
+fn standard_output_that_is_full_is_named() {
+    let full = File::options().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
+    let output = command.arg("scenes").stdout(full).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for part in ["standard output: could not be written", "No space left"] {
+        assert!(said.contains(part), "{said}");
+    }
 }
 
 mod long {

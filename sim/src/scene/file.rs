@@ -1,6 +1,8 @@
 //! A scene file as it stands, before flasks and liquids are made of it.
 
-use super::chemistry::{ABSOLUTE_ZERO, PaperChemistry, PhysicalChemistry};
+use super::chemistry::{
+    ABSOLUTE_ZERO, HOTTEST_LIQUID, MOST_SUPERHEAT, PaperChemistry, PhysicalChemistry,
+};
 use super::contents::{Flask, Liquid};
 use super::error::Problem;
 use super::feature::Feature;
@@ -10,6 +12,7 @@ use super::settings::{
     Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite,
 };
 use super::tool::ToolEntry;
+use crate::chemistry::table::SolutionTable;
 use crate::fill;
 use crate::flask::{Profile, glassware};
 use crate::pose::Pose;
@@ -188,13 +191,13 @@ fn named(
 }
 
 impl LiquidEntry {
-    /// `hottest` is the highest temperature (°C) of the scene's chemistry.
+    /// `solutions` are what the scene's chemistry has for liquids, if that is the physical one.
     pub fn build(
         self,
         index: usize,
         scale: &Scale,
         flasks: &[Flask],
-        hottest: f64,
+        solutions: Option<&SolutionTable>,
     ) -> Result<Liquid, Problem> {
         let field = |name: &str| format!("liquid[{index}].{name}");
         let Some(flask) = flasks.iter().position(|flask| flask.name == self.flask) else {
@@ -225,18 +228,22 @@ impl LiquidEntry {
                 return Err(Problem::new(field("volume_ml"), problem));
             }
         };
+        let must = "between 0 and 1 (mass of acid over all)";
+        within(&field("acid_fraction"), self.acid_fraction, 0.0..=1.0, must)?;
         let celsius = self.temperature;
         let (ok, must) = (celsius > ABSOLUTE_ZERO, "above −273.15 (°C)");
         require(&field("temperature"), celsius, ok, must)?;
-        if hottest < celsius {
-            let problem = format!(
-                "{celsius} °C: no mixture of water and acid is liquid above {hottest} °C, and the \
-                 tables of [physical] end there; take less"
-            );
-            return Err(Problem::new(field("temperature"), problem));
+        if let Some(solutions) = solutions {
+            let boils = solutions.at(self.acid_fraction).boiling_point;
+            let most = (boils + MOST_SUPERHEAT).min(HOTTEST_LIQUID).round();
+            if celsius > most {
+                let problem = format!(
+                    "{celsius} °C: liquid of this acid fraction boils at {boils:.0} °C and bears no superheat of more than \
+                     {MOST_SUPERHEAT} K in a flask, and the tables of [physical] end at {HOTTEST_LIQUID} °C; take {most} or less"
+                );
+                return Err(Problem::new(field("temperature"), problem));
+            }
         }
-        let must = "between 0 and 1 (mass of acid over all)";
-        within(&field("acid_fraction"), self.acid_fraction, 0.0..=1.0, must)?;
         Ok(Liquid {
             flask,
             volume,

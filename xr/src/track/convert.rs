@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::files::suggested;
+
 use super::{Annex, Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
 
 /// JSON schema of events and progress where a track is written again: any object.
@@ -20,7 +22,7 @@ pub fn load(name: &str) -> Result<Track, TrackError> {
     if !file.exists() {
         return Err(TrackError::Unknown {
             name: name.into(),
-            builtin: builtin::NAMES.join(", "),
+            known: suggested(name, &builtin::NAMES),
         });
     }
     if file

@@ -24,8 +24,7 @@ pub enum TrackError {
     File(#[from] FileError),
     /// The output is there already.
     #[error(
-        "{file}: exists, and nothing is overwritten unasked; name another file, or ask for it to \
-         be replaced",
+        "{file}: exists and is not overwritten; name another or take that one away",
         file = file.display()
     )]
     Exists {
@@ -125,11 +124,11 @@ pub enum TrackError {
         expected: String,
     },
     /// The name is neither a built-in track's nor a file.
-    #[error("{name}: neither a file nor a built-in track; built in are {builtin}")]
+    #[error("{name}: neither a file nor a built-in track; {known}")]
     Unknown {
         /// The name that was asked for.
         name: String,
-        /// Names of the built-in tracks.
-        builtin: String,
+        /// The built-in track that may be meant, and all of them.
+        known: String,
     },
 }

@@ -89,7 +89,7 @@ pub fn make(
     let scene = (plan.name.as_str(), text.as_deref());
     experiment.judge(course::judging((lesson, MODE), scene)?);
 
-    std::fs::create_dir_all(folder).other()?;
+    output::make_folder(folder)?;
     let film = Film::with_sound(path, FILM_SIZE, FILM_FPS).other()?;
     let shown = Runs::new(format).of(&track, plan.span);
     let mut observer = Observer::new(plan.span, vec![film], shown);

@@ -72,7 +72,7 @@ fn malformed_scenes_name_file_field_and_remedy() {
         (
             "temperature = 20.0\nacid_fraction = 0.0\n",
             "temperature = 400.0\nacid_fraction = 0.0\n[physical]\n",
-            &["liquid[0].temperature", "no mixture"],
+            &["liquid[0].temperature", "boils at 100 °C", "take 140"],
         ),
         (
             "substeps = 3",
@@ -103,6 +103,11 @@ fn malformed_scenes_name_file_field_and_remedy() {
             "[floor]",
             "[physical]\nlewis = 0.7\n[floor]",
             &["unknown field `lewis`", "`mixing`"],
+        ),
+        (
+            "[floor]",
+            "[physical]\nambient = 5000.0\n[floor]",
+            &["physical.ambient", "from −90 to 60"],
         ),
         (
             "[floor]",
@@ -164,7 +169,7 @@ fn malformed_scenes_name_file_field_and_remedy() {
         (
             "volume_ml = 100.0",
             "volume_ml = 400.0",
-            &["liquid", "fit below the rim"],
+            &["liquid", "400 mL are asked for", "mL fit below the rim"],
         ),
         (
             "volume_ml = 100.0",
@@ -211,6 +216,30 @@ fn missing_file_is_named_with_the_builtin_scenes() {
         message.contains("nowhere.toml") && message.contains("two-flasks"),
         "{message}"
     );
+}
+
+/// Water's own bound is not acid's: water of the films, at 112 °C, and hot acid are liquid, water of 250 °C is steam. Acid of 98 % boils at
+/// 333 °C (Perry), and the tables end at 340 °C.
+#[test]
+fn a_liquid_is_no_hotter_than_it_stays_liquid() {
+    let of = |celsius: f64, acid: f64| {
+        let hot = format!("temperature = {celsius:?}\nacid_fraction = {acid:?}\n[physical]\n");
+        let text = GOOD.replacen("temperature = 20.0\nacid_fraction = 0.0\n", &hot, 1);
+        Scene::parse(&text, "hot.toml").map(|scene| scene.liquids[0].temperature)
+    };
+    for (celsius, acid) in [(112.0, 0.0), (140.0, 0.0), (150.0, 0.98), (340.0, 0.98)] {
+        assert_eq!(of(celsius, acid), Ok(celsius), "acid {acid}");
+    }
+    for (celsius, acid, parts) in [
+        (250.0, 0.0, ["boils at 100 °C", "take 140"]),
+        (250.0, 0.6, ["boils at 141 °C", "take 181"]),
+        (341.0, 0.98, ["boils at 333 °C", "take 340"]),
+    ] {
+        let message = of(celsius, acid).unwrap_err().to_string();
+        for part in ["liquid[0].temperature"].iter().chain(&parts) {
+            assert!(message.contains(part), "{part:?} is not in: {message}");
+        }
+    }
 }
 
 /// Acid under water jitters at up to 6 cm/s with half of its multipliers carried on in a substep, and at 3 with a tenth:

@@ -1,0 +1,119 @@
+//! What an option's value is held to: a number to its quantity, a file's name to its format, a name to those that there are.
+
+use std::fs;
+
+use vitriol_tests::program::words;
+
+use super::{object, refuses, text, vitriol};
+
+/// A number that looks like an option is answered with its bound, not with how to give a file of that name.
+#[test]
+fn a_negative_number_is_answered_with_its_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (line, bound) in [
+        ("replay x --seconds -1", "above 0"),
+        ("replay x --budget-ms -0.5", "above 0"),
+        ("replay x --seed -1", "from 0 to 18446744073709551615"),
+        ("replay x --solver -1x2", "two whole numbers above 0"),
+        ("picture x -o x.png --at -1", "above 0"),
+        (
+            "picture x -o x.png --at 1 --size -9x9",
+            "two whole numbers above 0",
+        ),
+        ("picture x -o x.png --at 1 --field -1", "1 to 150 degrees"),
+        ("export x --format vtk --from -1", "0 or more"),
+        ("export x --format vtk --at -1", "0 or more"),
+        ("export x --format vtk --rate -1", "1 to 1000"),
+        ("grade x --scene beaker --jobs -1", "from 1 to 4294967295"),
+        (
+            "grade x --scene beaker --verify --tolerance -1,5,0.1",
+            "such as 0.2,5,0.1",
+        ),
+        ("vr --stand-in x --rate -1", "1 to 1000"),
+        ("vr --frames -1", "from 1 to"),
+        ("bench --frames -1", "from 1 to"),
+        ("trade --within -1", "above 0"),
+        ("extremes --cases -1", "a range of them"),
+        ("extremes --only -1", "from 0 to"),
+    ] {
+        refuses(here, &words(line), 2, &[bound]);
+        let output = vitriol(here, &words(line));
+        let message = text(&output.stderr);
+        assert!(!message.contains("'-- "), "{line}: {message}");
+    }
+    // A run's first moment is at zero; here it is the track alone that there is not.
+    for first in ["--from", "--at"] {
+        let line = format!("export nowhere --format vtk --out new {first} 0");
+        refuses(here, &words(&line), 2, &["nowhere: neither a file"]);
+    }
+}
+
+/// It was simulated for minutes, with hands that stood still.
+#[test]
+fn a_picture_is_of_a_moment_within_its_track() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let picture = "picture rinse-the-bottle --preset fast -o late.png --at 99";
+    refuses(here, &words(picture), 2, &["ends at 9.6", "99 s"]);
+    assert_eq!(fs::read_dir(here).unwrap().count(), 0);
+}
+
+#[test]
+fn a_files_name_ends_as_its_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (line, ending) in [
+        ("picture two-flasks --at 1 -o x.jpg", "ends in .png"),
+        ("lesson dilute --film x.webm", "ends in .mp4"),
+        ("track two-flasks -o x.csv", "ends in .mcap"),
+        ("track two-flasks -o x", "ends in .mcap"),
+        ("vr --record x.mp4", "ends in .mcap"),
+        ("bench --scaling x.png", "ends in .svg"),
+    ] {
+        refuses(here, &words(line), 2, &[ending]);
+    }
+    assert_eq!(fs::read_dir(here).unwrap().count(), 0);
+}
+
+#[test]
+fn a_misspelt_name_is_answered_with_the_one_that_is_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    for (line, meant) in [
+        ("replay two-flask --no-video", "did you mean two-flasks?"),
+        ("track dilutte", "did you mean dilute?"),
+        (
+            "replay two-flasks --scene watter-into-acid --out new",
+            "did you mean water-into-acid?",
+        ),
+        ("lesson examinaton", "did you mean examination?"),
+    ] {
+        refuses(folder.path(), &words(line), 2, &[meant]);
+    }
+}
+
+/// Without a device, and without `--cost`.
+#[test]
+fn scenes_are_listed_under_one_preset() {
+    let folder = tempfile::tempdir().unwrap();
+    let presets = |line: &str| {
+        let list = object(folder.path(), &words(line));
+        let scenes = list["scenes"].as_array().unwrap().clone();
+        let lengths = scenes
+            .iter()
+            .map(|it| it["presets"].as_array().unwrap().len());
+        let first = scenes[0]["presets"][0]["preset"].clone();
+        (lengths.collect::<Vec<_>>(), first)
+    };
+    let (all, first) = presets("scenes");
+    assert!(
+        all.iter().all(|it| *it == 3) && first == "fast",
+        "{all:?} {first}"
+    );
+    let (one, only) = presets("scenes --preset reference");
+    assert!(
+        one.iter().all(|it| *it == 1) && only == "reference",
+        "{one:?} {only}"
+    );
+    assert_eq!(one.len(), all.len());
+}
