@@ -4,6 +4,7 @@
 pub mod browser;
 #[cfg(target_os = "linux")]
 pub mod devtools;
+pub mod editors;
 pub mod gpu;
 mod installed;
 pub mod list;

@@ -26,14 +26,14 @@ pub enum FileError {
         /// The kind of file that was expected.
         what: &'static str,
     },
-    /// The file is not UTF-8.
-    #[error("{file}: is no text in UTF-8; name another file", file = file.display())]
+    /// The file is neither UTF-8 nor UTF-16 with its mark.
+    #[error("{file}: is no text in UTF-8 or UTF-16; save it as UTF-8, or name another file", file = file.display())]
     NotText {
         /// The file.
         file: PathBuf,
     },
     /// The operating system refused.
-    #[error("{file}: cannot be read: {source}", file = file.display())]
+    #[error("{file}: cannot be read: {source}; is it there, and may you read it?", file = file.display())]
     Io {
         /// The file.
         file: PathBuf,
@@ -85,13 +85,40 @@ pub fn read(file: &Path, what: &'static str, limit: u64) -> Result<Vec<u8>, File
     Ok(bytes)
 }
 
-/// The contents of `file` as UTF-8 text; [`read`] gives its bytes.
+/// The contents of `file` as text; [`read`] gives its bytes.
 ///
 /// # Errors
 /// As for [`read`], and [`FileError::NotText`].
 pub fn read_text(file: &Path, what: &'static str, limit: u64) -> Result<String, FileError> {
     let bytes = read(file, what, limit)?;
-    String::from_utf8(bytes).map_err(|_| FileError::NotText { file: file.into() })
+    decoded(&bytes).ok_or_else(|| FileError::NotText { file: file.into() })
+}
+
+/// The one line of `file`, such as an address or a token, without the space and the line's end around it.
+///
+/// # Errors
+/// As for [`read_text`].
+pub fn read_line(file: &Path, what: &'static str) -> Result<String, FileError> {
+    Ok(read_text(file, what, LINE)?.trim().to_owned())
+}
+
+/// Bytes of a file of one line. Our choice: a signed token has some thousands.
+const LINE: u64 = 65_536;
+
+/// The text of a file without its byte order mark; `None` where it is none. Windows' editors write the mark in UTF-8, and PowerShell's `>`
+/// writes UTF-16 with it.
+fn decoded(bytes: &[u8]) -> Option<String> {
+    let utf_16 = |rest: &[u8], unit: fn([u8; 2]) -> u16| {
+        let (pairs, half) = rest.as_chunks::<2>();
+        let units: Vec<u16> = pairs.iter().map(|&pair| unit(pair)).collect();
+        String::from_utf16(&units).ok().filter(|_| half.is_empty())
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8(rest.to_vec()).ok(),
+        _ => String::from_utf8(bytes.to_vec()).ok(),
+    }
 }
 
 /// How alike a name is to what may be meant by it: clap's measure and bound for options and commands.
@@ -131,15 +158,35 @@ mod tests {
         assert_eq!(read(&file, "scene", 5).unwrap(), b"12345");
         let message = read(&file, "scene", 4).unwrap_err().to_string();
         assert!(message.contains("longer than 4 bytes"), "{message}");
-        fs::write(&file, [0xff]).unwrap();
-        assert!(matches!(
-            read_text(&file, "scene", 4),
-            Err(FileError::NotText { .. })
-        ));
         assert!(matches!(
             read(&folder.path().join("y"), "scene", 4),
             Err(FileError::Io { .. })
         ));
+    }
+
+    #[test]
+    fn a_text_has_the_encodings_that_editors_write() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("x");
+        let text = "ä😀 b\r\n";
+        for bytes in vitriol_tests::editors::encodings(text) {
+            fs::write(&file, bytes).unwrap();
+            assert_eq!(read_text(&file, "scene", 99).unwrap(), text);
+            assert_eq!(read_line(&file, "token").unwrap(), "ä😀 b");
+        }
+        // No UTF-8; half a unit; half of a surrogate's pair; UTF-16 without a mark, which could be any bytes.
+        for bytes in [
+            &[0xff][..],
+            &[0xff, 0xfe, b'a'],
+            &[0xff, 0xfe, 0x3d, 0xd8],
+            &[0xe4, 0, b'b', 0],
+        ] {
+            fs::write(&file, bytes).unwrap();
+            let error = read_text(&file, "scene", 99).unwrap_err();
+            assert!(matches!(error, FileError::NotText { .. }), "{bytes:?}");
+            let said = error.to_string();
+            assert!(said.contains("x: ") && said.contains("UTF-8"), "{said}");
+        }
     }
 
     /// A pipe that nobody writes to would keep whoever opens it waiting for ever.

@@ -1,7 +1,8 @@
 //! Pose tracks: recordings of head, hands, inputs and switches in MCAP files, each message
 //! with the simulation step that consumed it.
 //!
-//! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which viewers draw without configuration. [`Keyframes`]
+//! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which viewers draw without configuration. Tracks
+//! are written in lz4, and read in zstd and uncompressed too, as other programs write them. [`Keyframes`]
 //! is the short text form that people write, and [`builtin`] holds the tracks made from it.
 
 mod annex;
@@ -24,6 +25,7 @@ mod sample;
 mod source;
 mod stage;
 mod write;
+mod zstd;
 
 use std::collections::BTreeMap;
 

@@ -13,6 +13,9 @@ use vitriol_xr::track::Track;
 use crate::cli::JudgeArgs;
 use crate::command::recorded::recorded_progress;
 
+/// Longest lesson's file that is read, bytes: a hundred times the length of a lesson.
+const LONGEST: u64 = 1 << 20;
+
 /// The lesson of that name or file, which its scene has all for, and its mode: one that it has, its usual one where none is named.
 ///
 /// # Errors
@@ -45,8 +48,14 @@ pub fn open(name: &str) -> Result<Lesson, Failure> {
     let lesson = match is_builtin {
         true => Lesson::builtin(name),
         false => Lesson::open(Path::new(name)),
+    let file = Path::new(name);
+    let is_builtin = Lesson::builtin_names().contains(&name);
+    let lesson = if is_builtin || !file.exists() {
+        Lesson::builtin(name).input()?
+    } else {
+        let text = files::read_text(file, "lesson", LONGEST).input()?;
+        Lesson::parse(&text, name).input()?
     };
-    let lesson = lesson.input()?;
     let mut scenes = Scenes::default();
     let scene = scenes.open(&lesson.scene)?;
     let facts = SceneFacts::of(&lesson.scene, &scenes.get(&scene)?);

@@ -10,6 +10,7 @@ use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
 use vitriol_run::units::count;
 use vitriol_run::output::make_folder;
 use vitriol_run::{Blame, Failure};
+use vitriol_xr::files;
 
 use crate::cli::KeepArgs;
 
@@ -82,7 +83,7 @@ pub fn keeper(args: &KeepArgs) -> Result<Keeper, Failure> {
     let lrs = match (&args.lrs, &args.lrs_token) {
         (Some(endpoint), Some(file)) => Some(Lrs {
             endpoint: endpoint.clone(),
-            token: Token::read(file).input()?,
+            token: Token::held(file, &files::read_line(file, "token").input()?).input()?,
             patience: Patience::default(),
         }),
         _ => None,

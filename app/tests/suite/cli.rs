@@ -3,6 +3,7 @@
 #[cfg(target_os = "linux")]
 pub mod runtime;
 mod bounds;
+mod editors;
 mod shown;
 
 use std::fs;

@@ -49,7 +49,7 @@ pub enum LinkStatus {
     Trying,
     /// It is connected.
     Connected,
-    /// It is not connected, for this reason, and is being tried again.
+    /// It is not connected, and is being tried again: the hub's host and port, and the reason.
     Lost(String),
 }
 
@@ -66,13 +66,15 @@ enum Refused {
     OtherCertificate,
     #[error("the hub does not answer in time; is its network busy?")]
     Late,
-    #[error("the hub refuses this program's key: copy the hub's address anew")]
+    #[error("the hub refuses this program's key (403): copy the hub's address anew")]
     Key,
     #[error(
-        "the hub has refused too many wrong keys from this address; it listens again in a while"
+        "the hub has refused too many wrong keys from this address (429); it listens again in a while"
     )]
     LockedOut,
-    #[error("what answers is no hub of this version ({0})")]
+    #[error(
+        "what answers is no hub of this version ({0}); is the address a hub's, and are both programs of one version?"
+    )]
     NoHub(String),
 }
 
@@ -212,7 +214,7 @@ impl Dialler {
     async fn keep(&self) {
         let mut pause = PAUSES[0];
         loop {
-            let lost = match timeout(PATIENCE, self.connect()).await {
+            let why = match timeout(PATIENCE, self.connect()).await {
                 Err(_) => Refused::Late.to_string(),
                 Ok(Err(refused)) => refused.to_string(),
                 Ok(Ok(socket)) => {
@@ -225,6 +227,7 @@ impl Dialler {
                     "the connection to the hub broke".to_owned()
                 }
             };
+            let lost = format!("{}: {why}", self.address.host());
             let now = LinkStatus::Lost(lost.clone());
             let before = std::mem::replace(&mut *lock(&self.status), now.clone());
             if before != now {

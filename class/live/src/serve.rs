@@ -13,6 +13,7 @@ use vitriol_sim::world::MOST_INTENSITY;
 use super::watchers::Watchers;
 use crate::args::ConsoleArgs;
 use vitriol_run::choices::{CHOICES, Order, index};
+use vitriol_xr::files;
 
 /// A run's end of the console: the states that its loop sends, the orders that it receives, and the program's description.
 #[derive(Clone, Debug)]
@@ -171,17 +172,15 @@ pub fn student(name: Option<&str>, is_session: bool) -> Student {
 
 /// A hub's address, or a file that holds one, which nobody sees in a list of processes.
 pub fn hub_address(text: &str) -> Result<HubAddress, String> {
-    let held = |file: &Path| {
-        std::fs::read_to_string(file)
-            .map_err(|cause| format!("{} cannot be read: {cause}", file.display()))
-    };
     let file = Path::new(text);
-    let text = if file.is_file() {
-        held(file)?
-    } else {
-        text.to_owned()
-    };
-    text.parse().map_err(|error| format!("{error}"))
+    if !file.is_file() {
+        return text
+            .parse::<HubAddress>()
+            .map_err(|error| error.to_string());
+    }
+    let line = files::read_line(file, "hub's address").map_err(|error| error.to_string())?;
+    line.parse::<HubAddress>()
+        .map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// Where a console listens: an address and a port, a computer's name and a port, or a port of this computer alone.

@@ -50,6 +50,18 @@ pub enum TrackError {
         /// How far the file could be read.
         place: String,
     },
+    /// The file may be intact, and its chunks have a compression that is not read.
+    #[error(
+        "{file}: its chunks are compressed as {found:?}, and lz4, zstd and uncompressed ones are read; have the program that \
+         wrote it use one of these, or convert it with the MCAP tool: mcap compress --compression zstd INPUT -o OUTPUT",
+        file = file.display()
+    )]
+    Compression {
+        /// The file.
+        file: PathBuf,
+        /// Name of the compression, cut where it is long.
+        found: String,
+    },
     /// A topic or record that each track has is not there.
     #[error("{file}: no {what}; {expected}", file = file.display())]
     Missing {

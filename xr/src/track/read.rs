@@ -16,6 +16,7 @@ use mcap::{MAGIC, McapError};
 use super::check::{self, Flaw, at};
 use super::decode::Partial;
 use super::metadata::{carried, check_scenes, metadata, short};
+use super::zstd::Zstd;
 use super::{Track, TrackError, TrackMetadata, descriptor, lengths, limits, names, seconds};
 use crate::files;
 
@@ -25,6 +26,9 @@ const PROTOBUF: [&str; 2] = ["protobuf"; 2];
 /// Longest record and longest chunk accepted, B. Half a second of track is some 50 kB; a
 /// length with a flipped bit must not become an allocation of exabytes.
 const RECORD_LIMIT: usize = 64 << 20;
+
+/// Characters of a compression's name that a message repeats. Our choice.
+const NAME: usize = 40;
 
 impl Track {
     /// Reads a whole track from an MCAP file and checks every frame of it.
@@ -106,6 +110,9 @@ impl<'a> Reading<'a> {
                 .with_validate_summary_section_crc(true)
                 .with_record_length_limit(RECORD_LIMIT),
         );
+        reader
+            .add_decompressor(Zstd::new(RECORD_LIMIT))
+            .map_err(|error| self.damaged(error))?;
         let mut rest = bytes;
         // Behind the data come copies of schemas and channels and the index.
         let mut in_data = true;
@@ -130,6 +137,13 @@ impl<'a> Reading<'a> {
                     }
                 }
                 Err(McapError::UnexpectedEof) if !finished => return Ok(()),
+                Err(McapError::UnsupportedCompression(name)) => {
+                    return Err(TrackError::Compression {
+                        file: self.file.into(),
+                        // The name may be as long as the file.
+                        found: name.chars().take(NAME).collect(),
+                    });
+                }
                 Err(error) => return Err(self.damaged(error)),
             }
         }

@@ -1,6 +1,7 @@
 //! Pose tracks from outside: files written, damaged, killed, converted and replayed.
 
 mod builtin;
+mod compression;
 mod damage;
 mod foreign;
 mod keyframes;

@@ -41,8 +41,12 @@ fn another_hub_and_another_key_are_refused() {
         let address: HubAddress = format!("{host}#{fingerprint}.{key}").parse().unwrap();
         Link::start(address, card("Ada")).unwrap()
     };
-    lost(&dial(&other, &key), "not the hub whose fingerprint");
-    lost(&dial(&fingerprint, &key), "refuses this program's key");
+    // Each reason names who was asked.
+    let of = |why: &str| format!("{host}: {why}");
+    let other_hub = of("this is not the hub whose fingerprint");
+    lost(&dial(&other, &key), &other_hub);
+    let other_key = of("the hub refuses this program's key (403)");
+    lost(&dial(&fingerprint, &key), &other_key);
     assert_eq!(hubs[0].counts().students, 0);
     let shown = hubs[0].fingerprint().unwrap().to_string();
     assert_eq!(shown.replace(':', "").to_lowercase(), fingerprint);

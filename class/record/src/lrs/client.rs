@@ -11,6 +11,7 @@ use ureq::{Agent, Body};
 use uuid::Uuid;
 
 use super::Lrs;
+use super::endpoint::RIGHT;
 
 /// The version that requests name: every store of 1.0 accepts it.
 const VERSION: &str = "1.0.3";
@@ -68,45 +69,46 @@ impl<'a> Client<'a> {
 
     /// Stores statements, all or none.
     pub(super) fn store(&self, statements: &str) -> Answer {
+        let address = self.lrs.endpoint.statements();
         let request = self
             .agent
-            .post(self.lrs.endpoint.statements())
+            .post(address.as_str())
             .header("Authorization", self.lrs.token.header())
             .header("X-Experience-API-Version", VERSION)
             .header("Content-Type", "application/json");
         match request.send(statements) {
-            Ok(mut answer) => meaning(&mut answer, |said| {
+            Ok(mut answer) => meaning(&address, &mut answer, |said| {
                 // A page of another server has the status 200 as well.
                 matches!(serde_json::from_str(said), Ok(Value::Array(_)))
             }),
-            Err(error) => Answer::Away(error.to_string(), None),
+            Err(error) => away(&address, &error),
         }
     }
 
     /// The statement of that identifier; `None` where there is none.
     pub(super) fn find(&self, id: Uuid) -> Result<Option<Value>, Answer> {
+        let address = format!("{}?statementId={id}", self.lrs.endpoint.statements());
         let request = self
             .agent
-            .get(format!(
-                "{}?statementId={id}",
-                self.lrs.endpoint.statements()
-            ))
+            .get(address.as_str())
             .header("Authorization", self.lrs.token.header())
             .header("X-Experience-API-Version", VERSION);
         let mut answer = match request.call() {
             Ok(answer) => answer,
-            Err(error) => return Err(Answer::Away(error.to_string(), None)),
+            Err(error) => return Err(away(&address, &error)),
         };
         if answer.status() == 404 {
             return Ok(None);
         }
         let mut found = Value::Null;
-        let meaning = meaning(&mut answer, |said| match serde_json::from_str(said) {
-            Ok(value @ Value::Object(_)) => {
-                found = value;
-                true
+        let meaning = meaning(&address, &mut answer, |said| {
+            match serde_json::from_str(said) {
+                Ok(value @ Value::Object(_)) => {
+                    found = value;
+                    true
+                }
+                _ => false,
             }
-            _ => false,
         });
         match meaning {
             Answer::Stored => Ok(Some(found)),
@@ -115,7 +117,20 @@ impl<'a> Client<'a> {
     }
 }
 
-fn meaning(answer: &mut Response<Body>, is_right: impl FnOnce(&str) -> bool) -> Answer {
+/// No answer came from that address.
+fn away(address: &str, error: &ureq::Error) -> Answer {
+    Answer::Away(
+        format!("{address}: {error}; is its server running, and is the address right?"),
+        None,
+    )
+}
+
+/// What an answer of that address means, which each message names with the status.
+fn meaning(
+    address: &str,
+    answer: &mut Response<Body>,
+    is_right: impl FnOnce(&str) -> bool,
+) -> Answer {
     let mut said = Vec::new();
     // An answer that is cut off by the end of a connection fails the checks below.
     let _ = answer
@@ -126,12 +141,13 @@ fn meaning(answer: &mut Response<Body>, is_right: impl FnOnce(&str) -> bool) -> 
     let said = String::from_utf8_lossy(&said);
     let status = answer.status();
     let shown: String = said.chars().take(SAID).collect();
-    let text = format!("{status}: {}", shown.trim());
+    let of = format!("{address} answers {status}");
+    let text = format!("{of}: {}", shown.trim());
     match status.as_u16() {
         204 => Answer::Stored,
         200 if is_right(&said) => Answer::Stored,
         200..=299 => Answer::Denied(format!(
-            "{status}, but not as a Learning Record Store answers"
+            "{of}, but not as a Learning Record Store does; {RIGHT}"
         )),
         300..=399 => {
             let to = answer
@@ -140,7 +156,7 @@ fn meaning(answer: &mut Response<Body>, is_right: impl FnOnce(&str) -> bool) -> 
                 .and_then(|to| to.to_str().ok());
             let to = to.unwrap_or("nowhere");
             Answer::Denied(format!(
-                "{status}: it sends on to {to}, which is not followed"
+                "{of}: it sends on to {to}, which is not followed; give that address if it is right"
             ))
         }
         408 | 425 | 429 | 500..=599 => {
@@ -153,8 +169,10 @@ fn meaning(answer: &mut Response<Body>, is_right: impl FnOnce(&str) -> bool) -> 
                 .map(Duration::from_secs);
             Answer::Away(text, after)
         }
-        // Unknown, forbidden, or no such place.
-        401 | 403 | 404 | 405 | 407 | 410 => Answer::Denied(text),
+        401 | 403 | 407 => Answer::Denied(format!(
+            "{text}; is the token of this store, and may it write statements?"
+        )),
+        404 | 405 | 410 => Answer::Denied(format!("{text}; {RIGHT}")),
         409 => Answer::Conflict(text),
         _ => Answer::Refused(text),
     }

@@ -10,7 +10,7 @@ use ureq::http::Uri;
 /// An address that pseudonyms and a token may go to: `https`, or this machine itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Endpoint {
-    /// The address, without the slash at its end.
+    /// The address, without the slash at its end and without the resource of statements behind it.
     address: String,
     /// Whether it is unencrypted; then it is on this machine.
     plain: bool,
@@ -39,10 +39,13 @@ pub enum EndpointError {
 }
 
 /// Remedy for messages.
-const RIGHT: &str = "an address is such as https://lrs.example.org/xAPI";
+pub(super) const RIGHT: &str = "an address is such as https://lrs.example.org/xAPI";
+
+/// The resource at which statements are stored and queried (xAPI 1.0.3, Communication, 2.1).
+const STATEMENTS: &str = "/statements";
 
 impl Endpoint {
-    /// The address, without the slash at its end.
+    /// The address, without the slash at its end and without `/statements`.
     pub fn as_str(&self) -> &str {
         &self.address
     }
@@ -54,7 +57,7 @@ impl Endpoint {
 
     /// Address at which statements are stored and queried.
     pub(super) fn statements(&self) -> String {
-        format!("{}/statements", self.address)
+        format!("{}{STATEMENTS}", self.address)
     }
 }
 
@@ -93,6 +96,9 @@ impl FromStr for Endpoint {
         }
         let scheme = if plain { "http" } else { "https" };
         let path = uri.path().trim_end_matches('/');
+        // Some stores show their users the address of this resource.
+        let path = path.strip_suffix(STATEMENTS).unwrap_or(path);
+        let path = path.trim_end_matches('/');
         Ok(Self {
             address: format!("{scheme}://{}{path}", authority.as_str().to_lowercase()),
             plain,
@@ -134,9 +140,23 @@ mod tests {
             ("http://127.0.0.1", "http://127.0.0.1"),
             ("http://127.9.9.9:1/a/b", "http://127.9.9.9:1/a/b"),
             ("http://[::1]:8100", "http://[::1]:8100"),
+            (
+                "https://lrs.example.org/xAPI/statements",
+                "https://lrs.example.org/xAPI",
+            ),
+            (
+                "https://lrs.example.org/xAPI//statements//",
+                "https://lrs.example.org/xAPI",
+            ),
+            ("http://localhost/statements", "http://localhost"),
+            (
+                "https://lrs.example.org/my-statements",
+                "https://lrs.example.org/my-statements",
+            ),
         ] {
             let endpoint: Endpoint = text.parse().unwrap();
             assert_eq!(endpoint.as_str(), address);
+            assert_eq!(endpoint.statements(), format!("{address}/statements"));
             assert_eq!(endpoint.is_plain(), address.starts_with("http:"));
         }
         for elsewhere in [

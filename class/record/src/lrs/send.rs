@@ -69,10 +69,10 @@ struct Sending<'a> {
 }
 
 impl Sending<'_> {
-    /// Sends a batch, in halves where a part of it is refused. Returns whether to go on.
+    /// Sends a batch, in halves where a part of it is refused, so that one statement holds no other back. Returns whether to go on.
     fn deliver(&mut self, batch: Vec<Waiting>) -> Result<bool, StoreError> {
         let mut parts = vec![batch];
-        while let Some(mut part) = parts.pop() {
+        while let Some(part) = parts.pop() {
             let text: Vec<&str> = part.iter().map(|it| it.statement.as_str()).collect();
             let text = format!("[{}]", text.join(","));
             match self.patiently(|client| client.store(&text)) {
@@ -81,20 +81,14 @@ impl Sending<'_> {
                     let Some(missing) = self.not_there(&part, &why)? else {
                         return Ok(false);
                     };
-                    // The store has none of them and still reports a conflict: no other request would help.
                     if missing.len() == part.len() {
-                        for waiting in &missing {
-                            self.refused(waiting, &why)?;
-                        }
+                        // Which of them conflict shows only when they are sent apart.
+                        parts.extend(self.apart(missing, &why)?);
                     } else if !missing.is_empty() {
                         parts.push(missing);
                     }
                 }
-                Answer::Refused(why) if part.len() == 1 => self.refused(&part[0], &why)?,
-                Answer::Refused(_) => {
-                    let second = part.split_off(part.len() / 2);
-                    parts.extend([second, part]);
-                }
+                Answer::Refused(why) => parts.extend(self.apart(part, &why)?),
                 Answer::Denied(why) | Answer::Away(why, _) => {
                     self.sent.stopped = Some(why);
                     return Ok(false);
@@ -108,15 +102,29 @@ impl Sending<'_> {
         Ok(true)
     }
 
+    /// The halves of a part that was refused, the first one last. A single statement has none: it is refused.
+    fn apart(
+        &mut self,
+        mut part: Vec<Waiting>,
+        why: &str,
+    ) -> Result<Vec<Vec<Waiting>>, StoreError> {
+        if let [waiting] = &part[..] {
+            self.refused(waiting, why)?;
+            return Ok(Vec::new());
+        }
+        let second = part.split_off(part.len() / 2);
+        Ok(vec![second, part])
+    }
+
     /// Looks up each statement of a part that conflicted. Those that are stored already are delivered; returns those that are not, or
-    /// `None` where the store stopped answering.
+    /// `None` where the store stopped answering. A token may write statements and not read them: then nothing is known of the rest.
     fn not_there(
         &mut self,
         part: &[Waiting],
         why: &str,
     ) -> Result<Option<Vec<Waiting>>, StoreError> {
         let mut missing = Vec::new();
-        for waiting in part {
+        for (at, waiting) in part.iter().enumerate() {
             let mut found = None;
             let answer = self.patiently(|client| match client.find(waiting.id) {
                 Ok(statement) => {
@@ -136,13 +144,11 @@ impl Sending<'_> {
                     )?;
                 }
                 (Answer::Stored, None) => missing.push(waiting.clone()),
-                (
-                    Answer::Conflict(why)
-                    | Answer::Refused(why)
-                    | Answer::Denied(why)
-                    | Answer::Away(why, _),
-                    _,
-                ) => {
+                (Answer::Conflict(_) | Answer::Refused(_) | Answer::Denied(_), _) => {
+                    missing.extend_from_slice(&part[at..]);
+                    break;
+                }
+                (Answer::Away(why, _), _) => {
                     self.sent.stopped = Some(why);
                     return Ok(None);
                 }

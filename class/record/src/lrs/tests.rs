@@ -89,14 +89,8 @@ fn here(first: &str, headers: &str) -> Option<String> {
     ))
 }
 
-/// A store in which an attempt's nine statements wait, and the result of sending them.
-fn sending(
-    answer: impl FnMut(&Request) -> Option<String> + Send + 'static,
-) -> (Sent, Vec<Request>, Vec<Uuid>) {
-    let folder = tempfile::tempdir().unwrap();
-    let (lrs, served) = server(answer);
-    let mut store = Store::open(&folder.path().join("class")).unwrap();
-    let entry = Entry {
+fn entry() -> Entry {
+    Entry {
         id: Uuid::from_u128(1),
         pseudonym: "p07".parse().unwrap(),
         begun: "2026-03-01T08:00:00Z".parse().unwrap(),
@@ -104,18 +98,32 @@ fn sending(
         source: None,
         score: None,
         attempt: example::attempt(),
-    };
-    store.add(&entry, Some(lrs.endpoint.as_str())).unwrap();
-    let ids = crate::xapi::statements(store.class(), &entry);
-    let ids = ids.iter().map(|statement| statement.id).collect();
-    let sent = send(&mut store, &lrs).unwrap();
-    // One more request ends the server.
+    }
+}
+
+/// Ends the server by one more request, and returns those before it.
+fn end(lrs: &Lrs, served: JoinHandle<Vec<Request>>) -> Vec<Request> {
     if !served.is_finished() {
         let _ = ureq::get(lrs.endpoint.statements())
             .header("X-End", "1")
             .call();
     }
-    (sent, served.join().unwrap(), ids)
+    served.join().unwrap()
+}
+
+/// A store in which an attempt's nine statements wait, and the result of sending them.
+fn sending(
+    answer: impl FnMut(&Request) -> Option<String> + Send + 'static,
+) -> (Sent, Vec<Request>, Vec<Uuid>) {
+    let folder = tempfile::tempdir().unwrap();
+    let (lrs, served) = server(answer);
+    let mut store = Store::open(&folder.path().join("class")).unwrap();
+    let entry = entry();
+    store.add(&entry, Some(lrs.endpoint.as_str())).unwrap();
+    let ids = crate::xapi::statements(store.class(), &entry);
+    let ids = ids.iter().map(|statement| statement.id).collect();
+    let sent = send(&mut store, &lrs).unwrap();
+    (sent, end(&lrs, served), ids)
 }
 
 fn is_end(request: &Request) -> bool {
@@ -168,6 +176,7 @@ fn who_takes_nothing_is_asked_once_and_all_stays() {
             "not as a Learning Record Store",
         ),
     ] {
+        let status = answer.as_deref().unwrap()["HTTP/1.1 ".len()..][..3].to_owned();
         let (sent, requests, _) = sending(move |request| {
             if is_end(request) {
                 None
@@ -180,7 +189,14 @@ fn who_takes_nothing_is_asked_once_and_all_stays() {
             (0, 9, 1),
             "{why}"
         );
-        assert!(sent.stopped.as_deref().unwrap().contains(why), "{sent:?}");
+        let told = sent.stopped.as_deref().unwrap();
+        assert!(told.contains(why), "{told}");
+        // The address that was asked, and the status.
+        let of = format!("/xAPI/statements answers {status} ");
+        assert!(
+            told.starts_with("http://127.0.0.1:") && told.contains(&of),
+            "{told}"
+        );
     }
     assert!(elsewhere.accept().is_err(), "the token went elsewhere");
 }
@@ -253,4 +269,72 @@ fn a_conflict_is_looked_into() {
     assert_eq!(sent.refused[0].id, ids[3]);
     assert_eq!(requests.last().unwrap().statements(), ids[4..]);
     assert_eq!(requests.len(), 1 + 9 + 1);
+}
+
+/// A token may write and not read, and a store's index may be behind: which statement conflicts is then found by sending them apart.
+#[test]
+fn one_that_conflicts_keeps_off_no_other() {
+    for looked_up in ["403 Forbidden", "404 Not Found"] {
+        let (sent, requests, ids) = sending(move |request| {
+            if is_end(request) {
+                None
+            } else if request.first.starts_with("GET") {
+                says(looked_up, "")
+            } else if request.body.contains("incident/hot") {
+                says("409 Conflict", "another is there")
+            } else {
+                here("204 No Content", "")
+            }
+        });
+        assert_eq!((sent.delivered, sent.waiting, sent.stopped), (8, 1, None));
+        assert_eq!(sent.refused.len(), 1);
+        let refused = &sent.refused[0];
+        assert_eq!(refused.id, ids[4]);
+        assert!(refused.why.contains("another is there"), "{}", refused.why);
+        let posts = requests.iter().filter(|it| it.first.starts_with("POST"));
+        assert!(posts.count() <= 9);
+    }
+}
+
+/// Some stores compare a repeated statement with theirs letter by letter, time included. The recording was copied meanwhile, so that its
+/// file has another time.
+#[test]
+fn a_later_call_sends_the_very_same_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut asked = 0;
+    let (lrs, served) = server(move |request| {
+        asked += 1;
+        match asked {
+            _ if is_end(request) => None,
+            1..=3 => here("503 Service Unavailable", ""),
+            _ => here("204 No Content", ""),
+        }
+    });
+    for begun in ["2026-03-01T08:00:00Z", "2026-03-02T09:00:00Z"] {
+        let mut store = Store::open(&folder.path().join("class")).unwrap();
+        let entry = Entry {
+            begun: begun.parse().unwrap(),
+            ..entry()
+        };
+        store.add(&entry, Some(lrs.endpoint.as_str())).unwrap();
+        send(&mut store, &lrs).unwrap();
+    }
+    let requests = end(&lrs, served);
+    assert_eq!(requests.len(), 4);
+    let first = &requests[0].body;
+    assert!(requests.iter().all(|request| request.body == *first));
+    let statements: Vec<serde_json::Value> = serde_json::from_str(first).unwrap();
+    for statement in &statements {
+        let time = statement["timestamp"].as_str().unwrap();
+        assert!(time.starts_with("2026-03-01T08:00:"), "{time}");
+    }
+}
+
+#[test]
+fn who_does_not_answer_is_named() {
+    let (sent, _, _) = sending(|_| None);
+    assert_eq!((sent.delivered, sent.waiting), (0, 9));
+    let told = sent.stopped.unwrap();
+    assert!(told.starts_with("http://127.0.0.1:"), "{told}");
+    assert!(told.contains("/xAPI/statements: "), "{told}");
 }

@@ -1,15 +1,13 @@
 //! The sender's credentials for a Learning Record Store.
 
 use std::fmt;
+#[cfg(unix)]
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-
-/// Most bytes of a token's file. Our choice: a signed token has some thousands.
-const MOST: u64 = 65_536;
 
 /// The value of the header `Authorization`. It is printed in no message.
 #[derive(Clone, PartialEq, Eq)]
@@ -18,8 +16,10 @@ pub struct Token(String);
 /// Why a file has no usable token.
 #[derive(Debug, thiserror::Error)]
 pub enum TokenError {
-    /// The file cannot be read.
-    #[error("{path}: the token could not be read; is the file there and yours?")]
+    /// The system does not tell who may read the file.
+    #[error(
+        "{path}: who may read the token cannot be found out: {source}; is the file there and yours?"
+    )]
     Read {
         /// The file.
         path: PathBuf,
@@ -47,20 +47,19 @@ pub enum TokenError {
 }
 
 impl Token {
-    /// Reads the token's file: one line, `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`. On Unix only its owner may read it, as OpenSSH
-    /// requires of a key.
+    /// The token of the file `path`, which holds that one line: `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`. On Unix only the file's
+    /// owner may read it, as OpenSSH requires of a key.
     ///
     /// # Errors
     /// [`TokenError`].
-    pub fn read(path: &Path) -> Result<Self, TokenError> {
-        let read = |source| TokenError::Read {
-            path: path.to_owned(),
-            source,
-        };
-        let file = fs::metadata(path).map_err(read)?;
+    pub fn held(path: &Path, line: &str) -> Result<Self, TokenError> {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
+            let file = fs::metadata(path).map_err(|source| TokenError::Read {
+                path: path.to_owned(),
+                source,
+            })?;
             let mode = file.permissions().mode() & 0o777;
             if mode & 0o077 != 0 {
                 return Err(TokenError::Open {
@@ -69,14 +68,9 @@ impl Token {
                 });
             }
         }
-        let none = || TokenError::None {
+        Self::of(line).ok_or_else(|| TokenError::None {
             path: path.to_owned(),
-        };
-        if file.len() > MOST {
-            return Err(none());
-        }
-        let text = fs::read_to_string(path).map_err(read)?;
-        Self::of(text.trim()).ok_or_else(none)
+        })
     }
 
     pub(super) fn of(line: &str) -> Option<Self> {
@@ -150,7 +144,7 @@ mod tests {
             (0o400, true),
         ] {
             fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
-            let read = Token::read(&path);
+            let read = Token::held(&path, "name:password");
             assert_eq!(read.is_ok(), secret, "{mode:o}");
             if let Err(error) = read {
                 assert!(error.to_string().contains("chmod 600"), "{error}");

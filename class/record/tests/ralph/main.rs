@@ -170,7 +170,7 @@ fn nothing_is_lost_while_the_store_is_away_and_nothing_doubled() {
             use std::os::unix::fs::PermissionsExt;
             fs::set_permissions(at(name), fs::Permissions::from_mode(0o600)).unwrap();
         }
-        Token::read(&at(name)).unwrap()
+        Token::held(&at(name), text).unwrap()
     };
     let port = free_port();
     let mut lrs = Lrs {
@@ -214,7 +214,7 @@ fn nothing_is_lost_while_the_store_is_away_and_nothing_doubled() {
     let mut store = Store::open_existing(&class).unwrap();
     let sent = send(&mut store, &stranger).unwrap();
     assert_eq!((sent.delivered, sent.waiting), (0, all));
-    assert!(sent.stopped.unwrap().starts_with("401"));
+    assert!(sent.stopped.unwrap().contains("401"));
     assert!(!Server::file(&data).exists());
 
     // Two batches arrived, and their confirmations are lost.

@@ -14,14 +14,6 @@ pub enum LessonError {
         /// The built-in names.
         known: String,
     },
-    /// The file cannot be read.
-    #[error("{file}: cannot be read as a lesson: {problem}")]
-    Read {
-        /// The file.
-        file: String,
-        /// Why, and what would be right.
-        problem: String,
-    },
     /// Not TOML, or a key that is missing, unknown or of the wrong type. The message has the line and the keys that are known there.
     #[error("{file}: {message}")]
     Syntax {

@@ -1,8 +1,6 @@
-//! A lesson, and the file that it is read from.
+//! A lesson, and the text of the file that it is in.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Read;
-use std::path::Path;
 
 use serde::Deserialize;
 use xxhash_rust::xxh3::xxh3_128;
@@ -19,8 +17,6 @@ use crate::texts::Texts;
 
 /// Version of the file format that is read here.
 const VERSION: u32 = 1;
-/// Longest file that is read, bytes: a hundred times the length of a lesson.
-const LONGEST: u64 = 1 << 20;
 /// Most steps of a lesson, and most rules.
 const MOST: usize = 50;
 /// Most points of a step or rule.
@@ -150,34 +146,6 @@ impl Lesson {
             });
         };
         Self::parse(text, &format!("{name}.toml"))
-    }
-
-    /// Reads a lesson from a file.
-    ///
-    /// # Errors
-    /// [`LessonError::Read`], or as for [`Lesson::parse`].
-    pub fn open(path: &Path) -> Result<Self, LessonError> {
-        let file = path.display().to_string();
-        let refused = |problem: String| LessonError::Read {
-            file: file.clone(),
-            problem,
-        };
-        let mut bytes = Vec::new();
-        std::fs::File::open(path)
-            .and_then(|it| it.take(LONGEST + 1).read_to_end(&mut bytes))
-            .map_err(|error| {
-                let known = Self::builtin_names().join(", ");
-                refused(format!(
-                    "{error}; name a file, or a built-in one of {known}"
-                ))
-            })?;
-        if bytes.len() as u64 > LONGEST {
-            let problem = format!("longer than {LONGEST} bytes, which no lesson is");
-            return Err(refused(problem));
-        }
-        let text = String::from_utf8(bytes)
-            .map_err(|_| refused("it is no text; save it as TOML in UTF-8".to_owned()))?;
-        Self::parse(&text, &file)
     }
 
     /// Parses a lesson from its TOML `text`; `file` is its name in messages. A lesson without texts that has the name of a built-in one

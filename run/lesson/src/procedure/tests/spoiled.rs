@@ -346,37 +346,3 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
     let error = Lesson::parse(&many, "bad.toml").unwrap_err().to_string();
     assert!(error.contains("step: there are 51"), "{error}");
 }
-
-#[test]
-fn a_file_that_is_none_is_refused() {
-    let folder = std::env::temp_dir().join(format!("vitriol-lesson-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let file = |name: &str, bytes: &[u8]| {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).unwrap();
-        Lesson::open(&path).map_err(|error| error.to_string())
-    };
-    let own = file("own.toml", GOOD.as_bytes()).unwrap();
-    assert_eq!(
-        (own.name.as_str(), own.languages()),
-        ("own-1", vec![crate::Language::En, crate::Language::Zh])
-    );
-    let error = file("bytes.toml", &[0xff, 0xfe]).unwrap_err();
-    assert!(
-        error.contains("bytes.toml") && error.contains("UTF-8"),
-        "{error}"
-    );
-    let error = file("long.toml", &vec![b'#'; (1 << 20) + 1]).unwrap_err();
-    assert!(
-        error.contains("long.toml") && error.contains("longer"),
-        "{error}"
-    );
-    let error = Lesson::open(&folder.join("none.toml"))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("none.toml") && error.contains("dilute"),
-        "{error}"
-    );
-    std::fs::remove_dir_all(&folder).unwrap();
-}
