@@ -125,8 +125,6 @@ pub struct Origin {
     pub metadata: TrackMetadata,
     /// Substeps and iterations in place of the preset's.
     pub solver: Option<[u32; 2]>,
-    /// JSON schema of a sample.
-    pub sample_schema: String,
 }
 
 impl Export {

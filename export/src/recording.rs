@@ -2,18 +2,20 @@
 
 use std::collections::BTreeMap;
 
+use vitriol_render::ColourBy;
 use vitriol_run::output::OutDir;
 use vitriol_run::particles::Particles;
 use vitriol_run::track::{STATE_HASH, blame};
 use vitriol_run::{
     Action, Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, H264, Laboratory, Moment, Sample,
-    stage,
+    particle_colours, stage,
 };
 use vitriol_xr::PoseFrame;
 use vitriol_xr::track::{Annex, Existing, TrackWriter};
 
 use crate::Origin;
 use crate::sink::{Frame, Sink};
+use crate::table::{self, Column};
 
 /// Name of the file.
 pub const FILE: &str = "recording.mcap";
@@ -30,7 +32,16 @@ pub struct Recording {
     now_ns: i64,
     /// Substeps and iterations that the first frame sets.
     solver: Option<[u32; 2]>,
-    schema: String,
+    /// Scenes whose measurements were begun.
+    scenes: u32,
+    measurements: Option<Measurements>,
+}
+
+/// The measurements of one scene: others have other flasks.
+struct Measurements {
+    topic: String,
+    columns: Vec<Column>,
+    names: Vec<String>,
 }
 
 impl Recording {
@@ -50,39 +61,29 @@ impl Recording {
             last: None,
             now_ns: 0,
             solver: origin.solver,
-            schema: origin.sample_schema.clone(),
+            scenes: 0,
+            measurements: None,
         })
     }
 
-    /// Writes the frame of a step that ended at `end_ns`, with the time at which it began.
-    fn write(
-        &mut self,
-        frame: &PoseFrame,
-        laboratory: &Laboratory,
-        end_ns: i64,
-    ) -> Result<(), Failure> {
+    /// Writes the frame of a step that ended at `end_ns`, with the time at which it began: so a replay reads the same track. The
+    /// flasks are the state's, so they are written with the state's time, and not with the frame.
+    fn write(&mut self, frame: &PoseFrame, end_ns: i64) -> Result<(), Failure> {
         let mut frame = frame.clone();
         frame.time_ns = std::mem::replace(&mut self.now_ns, end_ns);
         let solver = self.solver.take();
         let solver = solver.map(|effort| Action::Solver(effort).switch());
         // After a switch of scene, which brings its own.
         frame.scenario.extend(solver);
-        let flasks = stage::flasks(laboratory.world());
-        self.writer.write(&frame, &flasks).map_err(blame)?;
+        self.writer.write(&frame, &[]).map_err(blame)?;
         self.last = Some(frame);
         Ok(())
     }
 
-    /// Adds what is of the state after the last step, with the time of that step's frame: its flasks have that too, so
-    /// that a viewer shows liquid and glass of one moment.
-    fn add(&mut self, annex: &Annex<'_>) -> Result<(), Failure> {
-        let time_ns = self.frame_ns();
-        self.writer.add(time_ns, annex).map_err(blame)
-    }
-
-    /// Time of the last frame.
-    fn frame_ns(&self) -> i64 {
-        self.last.as_ref().map_or(0, |frame| frame.time_ns)
+    /// Adds what is of the state at `seconds`, which is its time in the other formats too.
+    fn add(&mut self, seconds: f64, annex: &Annex<'_>) -> Result<(), Failure> {
+        let added = self.writer.add(nanoseconds(seconds), annex);
+        added.map_err(blame)
     }
 
     fn film(&mut self, moment: &Moment<'_>, laboratory: &mut Laboratory) -> Result<(), Failure> {
@@ -91,7 +92,6 @@ impl Recording {
         if moment.frame.is_none() || due <= self.film {
             return Ok(());
         }
-        let time_ns = self.frame_ns();
         let picture = laboratory.picture(0)?;
         let Some(coded) = self.encoder.encode(picture).other()? else {
             let number = self.film;
@@ -101,7 +101,8 @@ impl Recording {
             .other();
         };
         // The bytes are the encoder's, so that all of `self` is not free.
-        let added = self.writer.add(time_ns, &Annex::Film(coded.bytes));
+        let film = Annex::Film(coded.bytes);
+        let added = self.writer.add(nanoseconds(seconds), &film);
         added.map_err(blame)?;
         // A step that is longer than a frame has one all the same: messages have times of their own.
         self.film = due;
@@ -120,29 +121,53 @@ impl Sink for Recording {
         laboratory: &mut Laboratory,
         _out: &mut OutDir,
     ) -> Result<(), Failure> {
+        let seconds = moment.time.seconds();
         if let Some(frame) = moment.frame {
-            self.write(frame, laboratory, nanoseconds(moment.time.seconds()))?;
+            self.write(frame, nanoseconds(seconds))?;
         }
+        let flasks = stage::flasks(laboratory.world());
+        self.add(seconds, &Annex::Flasks(&flasks))?;
         self.film(moment, laboratory)
     }
 
     fn frame(&mut self, frame: &Frame<'_>, _out: &mut OutDir) -> Result<(), Failure> {
-        let (fields, rows) = rows(frame.particles());
-        self.add(&Annex::Points {
+        let particles = frame.particles();
+        let (fields, rows) = rows(particles);
+        let world = frame.world();
+        let scale = world.scene().scale.length_scale as f32;
+        let colours = colours(particles, particle_colours(world), scale);
+        let points = Annex::Points {
             fields: &fields,
             rows: &rows,
-        })
+            colours: &colours,
+        };
+        self.add(frame.seconds, &points)
     }
 
     fn sample(&mut self, sample: &Sample, _out: &mut OutDir) -> Result<(), Failure> {
-        let json = serde_json::to_string(sample).other()?;
-        let schema = std::mem::take(&mut self.schema);
-        let added = self.add(&Annex::Measurement {
-            json: &json,
-            schema: &schema,
-        });
-        self.schema = schema;
-        added
+        if self.measurements.is_none() {
+            self.scenes += 1;
+        }
+        let scene = self.scenes;
+        let measurements = self
+            .measurements
+            .get_or_insert_with(|| Measurements::new(scene, sample));
+        let columns = measurements.columns.iter();
+        let values: Vec<f64> = columns
+            .map(|column| column.value(sample).unwrap_or(f64::NAN))
+            .collect();
+        let annex = Annex::Measurements {
+            topic: &measurements.topic,
+            names: &measurements.names,
+            values: &values,
+        };
+        let added = self.writer.add(nanoseconds(sample.t_s), &annex);
+        added.map_err(blame)
+    }
+
+    fn start_over(&mut self, _out: &mut OutDir) -> Result<(), Failure> {
+        self.measurements = None;
+        Ok(())
     }
 
     fn finish(&mut self, hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
@@ -165,6 +190,39 @@ impl Sink for Recording {
     }
 }
 
+impl Measurements {
+    fn new(scene: u32, first: &Sample) -> Self {
+        let columns = table::columns(first);
+        let topic = match scene {
+            0 | 1 => "/measurements".into(),
+            scene => format!("/measurements-{scene}"),
+        };
+        Self {
+            topic,
+            names: table::identifiers(&columns),
+            columns,
+        }
+    }
+}
+
+/// Each particle's colour, opaque; a unit of the scene is `length_scale` metres of the stage.
+fn colours(particles: &Particles, colour_by: ColourBy, length_scale: f32) -> Vec<[u8; 4]> {
+    let ([start, end], map) = (colour_by.range(), colour_by.map());
+    let value = |index: usize| match colour_by {
+        ColourBy::Temperature(..) => particles.temperature[index],
+        ColourBy::Acid => particles.acid[index],
+        ColourBy::Speed(_) => particles.velocity[index].length() as f32 / length_scale,
+    };
+    let byte = |component: f32| (255.0 * component).round() as u8;
+    let numbers = 0..particles.len();
+    numbers
+        .map(|index| {
+            let [red, green, blue] = map.at((value(index) - start) / (end - start));
+            [byte(red), byte(green), byte(blue), u8::MAX]
+        })
+        .collect()
+}
+
 /// Names of the columns, and the rows.
 fn rows(particles: &Particles) -> (Vec<&'static str>, Vec<f32>) {
     let heat = !particles.temperature.is_empty();
@@ -184,3 +242,7 @@ fn rows(particles: &Particles) -> (Vec<&'static str>, Vec<f32>) {
     }
     (fields, rows)
 }
+
+#[cfg(test)]
+#[path = "tests/recording.rs"]
+mod tests;

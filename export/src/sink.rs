@@ -68,6 +68,11 @@ impl<'a> Frame<'a> {
         named.filter_map(|(name, cloud)| Some((name, cloud?)))
     }
 
+    /// The world.
+    pub fn world(&self) -> &World {
+        self.world
+    }
+
     /// The scene.
     pub fn scene(&self) -> &Scene {
         self.world.scene()

@@ -1,5 +1,6 @@
 //! Measurements as tables: one row a sample, units in the header.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufWriter;
 use std::sync::Arc;
@@ -41,6 +42,24 @@ impl Column {
     pub fn value(&self, sample: &Sample) -> Option<f64> {
         (self.value)(sample).filter(|value| value.is_finite())
     }
+}
+
+/// Names of columns where only letters of ASCII, digits and `_` may be in one, with their units: `temperature_mean_degc`. Some
+/// readers of Protobuf refuse two names that differ in `_` alone, so a number is added to the second.
+pub fn identifiers(columns: &[Column]) -> Vec<String> {
+    let mut taken = BTreeSet::new();
+    let identifier = |column: &Column| {
+        let words = column.header.split(|c: char| !c.is_ascii_alphanumeric());
+        let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+        let plain = words.join("_").to_ascii_lowercase();
+        let (mut name, mut number) = (plain.clone(), 1);
+        while !taken.insert(name.replace('_', "")) {
+            number += 1;
+            name = format!("{plain}_{number}");
+        }
+        name
+    };
+    columns.iter().map(identifier).collect()
 }
 
 /// The columns of a run whose first sample this is.

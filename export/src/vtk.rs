@@ -7,7 +7,7 @@ use vitriol_run::particles::Particles;
 /// Kind of a cell that is one point.
 const VERTEX: u8 = 1;
 
-/// Particles at a time (s) as the bytes of a file.
+/// Particles at a time (s) as the bytes of a file. No name has a space, which VTK's legacy format does not allow.
 pub fn bytes(particles: &Particles, seconds: f64) -> Vec<u8> {
     let count = particles.len();
     let mut arrays = Arrays::default();
@@ -16,35 +16,35 @@ pub fn bytes(particles: &Particles, seconds: f64) -> Vec<u8> {
         floats(values.map(|value| value as f32))
     };
     let point_data = [
+        arrays.add("id", "UInt32", 1, le(&particles.id, |id| id.to_le_bytes())),
         arrays.add(
-            "id [1]",
-            "UInt32",
-            1,
-            le(&particles.id, |id| id.to_le_bytes()),
+            "velocity_m_per_s",
+            "Float32",
+            3,
+            vectors(&particles.velocity),
         ),
-        arrays.add("velocity [m/s]", "Float32", 3, vectors(&particles.velocity)),
         arrays.add(
-            "volume [m3]",
+            "volume_m3",
             "Float64",
             1,
             le(&particles.volume, |v| v.to_le_bytes()),
         ),
         arrays.add(
-            "mass [kg]",
+            "mass_kg",
             "Float64",
             1,
             le(&particles.mass, |m| m.to_le_bytes()),
         ),
         arrays.add(
-            "flask [number]",
+            "flask",
             "Int32",
             1,
             le(&particles.flask, |f| f.to_le_bytes()),
         ),
     ];
     let of_heat = [
-        ("temperature [degC]", &particles.temperature),
-        ("acid [kg/kg]", &particles.acid),
+        ("temperature_degC", &particles.temperature),
+        ("acid_kg_per_kg", &particles.acid),
     ];
     let of_heat = of_heat.into_iter().filter(|(_, values)| !values.is_empty());
     let heat: Vec<String> = of_heat
@@ -113,8 +113,13 @@ impl Arrays {
         let offset = self.bytes.len();
         self.bytes.extend((bytes.len() as u64).to_le_bytes());
         self.bytes.extend(bytes);
+        // A scalar has no number of components: meshio takes those with 1 for columns, and its other formats leave columns out.
+        let components = match components {
+            1 => String::new(),
+            several => format!("NumberOfComponents=\"{several}\" "),
+        };
         format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>\n"
+            "<DataArray type=\"{kind}\" Name=\"{name}\" {components}format=\"appended\" offset=\"{offset}\"/>\n"
         )
     }
 }
@@ -126,3 +131,7 @@ fn floats(values: impl Iterator<Item = f32>) -> Vec<u8> {
 fn le<T, const N: usize>(values: &[T], bytes: impl Fn(&T) -> [u8; N]) -> Vec<u8> {
     values.iter().flat_map(bytes).collect()
 }
+
+#[cfg(test)]
+#[path = "tests/vtk.rs"]
+mod tests;

@@ -371,11 +371,7 @@ impl Camera {
         match (colour, world.solver().heat()) {
             (Colour::Temperature, Some(_)) => self.temperatures,
             (Colour::Acid, Some(_)) => ColourBy::Acid,
-            _ => {
-                let scale = &world.scene().scale;
-                let fall = COLOURED_FALL / scale.length_scale;
-                ColourBy::Speed((2.0 * scale.gravity.abs() * fall).sqrt() as f32)
-            }
+            _ => speeds(world.scene()),
         }
     }
 
@@ -391,6 +387,22 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
+}
+
+/// What a scene's particles are coloured by where they are exported, as in a film of temperature: their temperature, or their
+/// speed (scene's unit per second) where no heat is modelled.
+pub fn particle_colours(world: &World) -> ColourBy {
+    match world.solver().heat() {
+        Some(_) => temperatures(world.scene()),
+        None => speeds(world.scene()),
+    }
+}
+
+/// The range of a scene's speeds, scene's unit per second.
+fn speeds(scene: &Scene) -> ColourBy {
+    let scale = &scene.scale;
+    let fall = COLOURED_FALL / scale.length_scale;
+    ColourBy::Speed((2.0 * scale.gravity.abs() * fall).sqrt() as f32)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the

@@ -23,6 +23,10 @@ use vitriol_sound::RATE;
 /// few enough (2 MB each at 960×540) not to matter.
 const QUEUED_FRAMES: usize = 4;
 
+/// Most bytes of pictures and sound in a film. The muxer keeps all of them in memory and writes them at the end, and only there
+/// refuses what 32 bits cannot count; its tables need a part.
+const MOST_BYTES: u64 = u32::MAX as u64 / 8 * 7;
+
 /// A film being written.
 ///
 /// It appears under its name only when [`Film::finish`] has succeeded; dropped
@@ -51,7 +55,7 @@ impl Film {
     /// [`FilmError::Size`], [`FilmError::Rate`], or [`FilmError::Write`] where
     /// the folder does not take a file.
     pub fn create(path: &Path, width: u32, height: u32, fps: u32) -> Result<Self, FilmError> {
-        Self::begin(path, [width, height], fps, false)
+        Self::begin(path, [width, height], fps, false, MOST_BYTES)
     }
 
     /// Begins a film of `size` (width and height, pixels) as [`Film::create`] does, with a track of sound at 48 kHz.
@@ -59,7 +63,7 @@ impl Film {
     /// # Errors
     /// As [`Film::create`].
     pub fn with_sound(path: &Path, size: [u32; 2], fps: u32) -> Result<Self, FilmError> {
-        Self::begin(path, size, fps, true)
+        Self::begin(path, size, fps, true, MOST_BYTES)
     }
 
     fn begin(
@@ -67,6 +71,7 @@ impl Film {
         [width, height]: [u32; 2],
         fps: u32,
         sounds: bool,
+        most_bytes: u64,
     ) -> Result<Self, FilmError> {
         let (long, short) = (width.max(height), width.min(height));
         if !width.is_multiple_of(2)
@@ -89,6 +94,7 @@ impl Film {
             height,
             fps,
             sounds,
+            most_bytes,
         };
         let encoder = std::thread::Builder::new()
             .name("film".into())
@@ -190,13 +196,14 @@ fn unwritten(path: &Path) -> impl FnOnce(std::io::Error) -> FilmError {
     move |source| FilmError::Write { path, source }
 }
 
-/// The film's frame size in pixels and its rate in Hz.
+/// The film's frame size in pixels, its rate in Hz, and how long it may become.
 #[derive(Clone, Copy)]
 struct Shape {
     width: u32,
     height: u32,
     fps: u32,
     sounds: bool,
+    most_bytes: u64,
 }
 
 impl Shape {
@@ -237,7 +244,7 @@ impl Shape {
             sound = Some(Soundtrack::new()?);
         }
         let mut muxer: Muxer<BufWriter<File>> = builder.build()?;
-        let mut number = 0u32;
+        let (mut number, mut bytes) = (0u32, 0u64);
         for part in queue {
             let frame = match (part, &mut sound) {
                 (Part::Picture(frame), _) => frame,
@@ -245,7 +252,7 @@ impl Shape {
                     sound.push(&samples)?;
                     // The muxer wants a picture first.
                     if number > 0 {
-                        sound.give(&mut muxer)?;
+                        bytes += sound.give(&mut muxer)?;
                     }
                     continue;
                 }
@@ -254,6 +261,10 @@ impl Shape {
             let coded = encoder.encode(&frame)?;
             let coded = coded.ok_or(FilmError::TooRich { number })?;
             let seconds = f64::from(number) / f64::from(self.fps);
+            bytes += coded.bytes.len() as u64;
+            if bytes > self.most_bytes {
+                return Err(FilmError::TooLong { seconds });
+            }
             muxer.write_video(seconds, coded.bytes, coded.is_key)?;
             // A full basket only means that one buffer more is freed.
             let _ = give_back.try_send(frame);
@@ -273,13 +284,14 @@ impl Shape {
     }
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::failure::Failure;
 
     /// The muxer gives the system's error, which says that there is no space, and not for what.
+    #[cfg(target_os = "linux")]
     #[test]
     fn a_full_disk_is_said_with_the_films_name() {
         let folder = tempfile::tempdir().unwrap();
@@ -289,6 +301,7 @@ mod tests {
             height: 180,
             fps: 30,
             sounds: false,
+            most_bytes: MOST_BYTES,
         };
         // Noise, of which a second is more than a buffer holds: the disk is met before the last bytes are flushed.
         const FRAMES: u32 = 30;
@@ -310,5 +323,31 @@ mod tests {
         for part in ["film.mp4", "is there room", "No space left"] {
             assert!(said.contains(part), "{said}");
         }
+    }
+
+    /// The run that is filmed ends there, and not hours later; nothing is left behind.
+    #[test]
+    fn a_film_that_becomes_too_long_ends_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("film.mp4");
+        let mut film = Film::begin(&path, [64, 64], 10, false, 2000).unwrap();
+        // Noise, of which a picture takes more than a few bytes.
+        let mut state = 1u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        };
+        let error = (0..1000)
+            .find_map(|_| {
+                let picture: Vec<u8> = (0..64 * 64 * 4).map(|_| noise()).collect();
+                film.push_rgba(&picture).err()
+            })
+            .unwrap();
+        assert!(
+            matches!(error, FilmError::TooLong { seconds } if seconds < 10.0),
+            "{error}"
+        );
+        drop(film);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

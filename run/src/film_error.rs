@@ -47,6 +47,14 @@ pub enum FilmError {
         /// The frame, from 0.
         number: u32,
     },
+    /// The film would become longer than its file can be.
+    #[error(
+        "after {seconds:.0} s the film has more than the 3.5 GiB that its file holds; run fewer --seconds, or give --no-video"
+    )]
+    TooLong {
+        /// Time of the first picture that is too many, s.
+        seconds: f64,
+    },
     /// The H.264 encoder refused.
     #[error("the H.264 encoder failed")]
     Encode(#[from] openh264::Error),

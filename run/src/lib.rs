@@ -58,7 +58,7 @@ pub mod units;
 pub use action::Action;
 pub use animated::{AnimatedPicture, halved};
 pub use boiling::boiling;
-pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, tripod};
+pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, particle_colours, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};
 pub use cutting::{Cut, Cutting, FilmFrame};

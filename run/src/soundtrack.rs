@@ -36,12 +36,14 @@ impl Soundtrack {
         Ok(self.opus.push(samples, keep(&mut self.packets))?)
     }
 
-    /// Gives what there is to the muxer.
-    pub(crate) fn give<W: Write>(&mut self, muxer: &mut Muxer<W>) -> Result<(), FilmError> {
+    /// Gives what there is to the muxer, and returns its bytes.
+    pub(crate) fn give<W: Write>(&mut self, muxer: &mut Muxer<W>) -> Result<u64, FilmError> {
+        let mut bytes = 0;
         for (seconds, packet) in self.packets.drain(..) {
             muxer.write_audio(seconds, &packet)?;
+            bytes += packet.len() as u64;
         }
-        Ok(())
+        Ok(bytes)
     }
 
     /// Gives the rest, as far as it is within a film of so many `seconds`: a packet that goes on behind its last picture would make

@@ -104,7 +104,7 @@ def vtu(file):
             size = int(np.frombuffer(data[at : at + 8], "<u8")[0])
             kind = {"Float32": "<f4", "Float64": "<f8", "UInt32": "<u4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}
             arrays[values["Name"]] = np.frombuffer(data[at + 8 : at + 8 + size], kind[values["type"]])
-    return arrays["Points"].reshape(-1, 3), arrays.get("acid [kg/kg]"), arrays["volume [m3]"]
+    return arrays["Points"].reshape(-1, 3), arrays.get("acid_kg_per_kg"), arrays["volume_m3"]
 
 
 def acid_grid(positions, acid, volumes):

@@ -1,4 +1,4 @@
-//! Other programs that read what is exported: PyVista, Rerun, Arrow and JSON schema's validator, for Python, and
+//! Other programs that read what is exported: PyVista, meshio, Rerun, Arrow and JSON schema's validator, for Python, and
 //! Khronos's validator of glTF, for Node. `./lab setup` installs them.
 
 use std::path::{Path, PathBuf};
@@ -20,7 +20,11 @@ impl Readers {
     /// Where there are none and `CI=true`.
     #[must_use]
     pub fn find(test: &str) -> Option<Self> {
-        let root = installed::find("readers-1", "PyVista, Rerun and glTF's validator are", test)?;
+        let root = installed::find(
+            "readers-2",
+            "PyVista, meshio, Rerun and glTF's validator are",
+            test,
+        )?;
         Some(Self { root })
     }
 

@@ -147,7 +147,7 @@ mod names {
 
     pub const PARTICLES: &str = "/particles";
     pub const FILM: &str = "/film";
-    pub const MEASUREMENTS: &str = "/measurements";
+    pub const FLASKS: &str = "/flasks";
     pub const CAMERA: &str = "camera";
     pub const EVENTS: &str = "/events";
     pub const EVENT: &str = "vitriol.Event";

@@ -45,15 +45,10 @@ pub fn open(name: &str) -> Result<Lesson, Failure> {
         ))
         .input();
     }
-    let lesson = match is_builtin {
-        true => Lesson::builtin(name),
-        false => Lesson::open(Path::new(name)),
-    let file = Path::new(name);
-    let is_builtin = Lesson::builtin_names().contains(&name);
-    let lesson = if is_builtin || !file.exists() {
+    let lesson = if is_builtin {
         Lesson::builtin(name).input()?
     } else {
-        let text = files::read_text(file, "lesson", LONGEST).input()?;
+        let text = files::read_text(Path::new(name), "lesson", LONGEST).input()?;
         Lesson::parse(&text, name).input()?
     };
     let mut scenes = Scenes::default();

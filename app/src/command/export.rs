@@ -10,7 +10,7 @@ use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, PRESET};
 use vitriol_run::units::{count, data};
 use vitriol_run::{
-    Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, device, emit,
+    Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Setup, device, emit,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -188,7 +188,6 @@ fn simulated(
     let origin = Origin {
         metadata: metadata(&plan, &device::statement(&gpu)),
         solver: plan.chosen,
-        sample_schema: schemars::schema_for!(Sample).as_value().to_string(),
     };
     let progress = Runs::new(format).of(&args.input, plan.span);
     let mut export = Export::new(formats, times, (plan.span, progress), &origin, out)?;

@@ -7,8 +7,8 @@ use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
 use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
-use vitriol_run::units::count;
 use vitriol_run::output::make_folder;
+use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure};
 use vitriol_xr::files;
 

@@ -8,8 +8,11 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 import jsonschema
+import matplotlib
+import meshio
 import numpy
 import pyarrow.parquet
 import pyvista
@@ -44,10 +47,10 @@ def particles():
         "vertices": bool((last.cell_connectivity == numpy.arange(last.n_points)).all()
                          and (last.offset == numpy.arange(last.n_points + 1)).all()),
         "names": sorted(last.point_data.keys()),
-        "mass_kg": float(last.point_data["mass [kg]"].sum()),
-        "volume_m3": float(last.point_data["volume [m3]"].sum()),
+        "mass_kg": float(last.point_data["mass_kg"].sum()),
+        "volume_m3": float(last.point_data["volume_m3"].sum()),
         "temperature_mean": float(
-            numpy.average(last.point_data["temperature [degC]"], weights=last.point_data["mass [kg]"])
+            numpy.average(last.point_data["temperature_degC"], weights=last.point_data["mass_kg"])
         ),
         "lowest": last.points.min(axis=0).tolist(),
         "highest": last.points.max(axis=0).tolist(),
@@ -90,6 +93,27 @@ def tables():
     }
 
 
+def conversions():
+    """What meshio keeps of the particles in its other formats, whose names may have no spaces."""
+    last = sorted(glob.glob(path("particles-*.vtu")))[-1]
+    expected = pyvista.read(last).point_data
+    scalars = [name for name in expected.keys() if expected[name].ndim == 1]
+    mesh = meshio.read(last)
+    kept = {}
+    for ending in ["vtu", "vtk", "ply"]:
+        read = mesh
+        if ending != "vtu":
+            with tempfile.TemporaryDirectory() as there:
+                file = os.path.join(there, f"particles.{ending}")
+                mesh.write(file)
+                read = meshio.read(file)
+        kept[ending] = sorted(
+            name for name in scalars
+            if name in read.point_data and numpy.array_equal(read.point_data[name], expected[name])
+        )
+    return {"scalars": sorted(scalars), "kept": kept}
+
+
 def recording(points):
     rrd = path("recording.rrd")
     program = os.path.join(os.path.dirname(sys.executable), "rerun")
@@ -101,21 +125,41 @@ def recording(points):
 
     def rows(entity, component):
         view = dataset.filter_contents([entity]).reader(index="message_log_time")
-        column = view.to_arrow_table().column(f"{entity}:{component}").to_pylist()
-        return [value for value in column if value]
+        table = view.to_arrow_table()
+        times = table.column("message_log_time").cast("int64").to_pylist()
+        pairs = zip(times, table.column(f"{entity}:{component}").to_pylist())
+        return [(time, value) for time, value in pairs if value]
 
     clouds = rows("/particles", "Points3D:positions")
-    last = numpy.array(clouds[-1])
+    last = numpy.array(clouds[-1][1])
+    packed = numpy.array(rows("/particles", "Points3D:colors")[-1][1], dtype="u4")
+    colours = numpy.stack([packed >> shift & 255 for shift in (24, 16, 8, 0)], axis=1) / 255
+    plasma = matplotlib.colormaps["plasma"](numpy.linspace(0, 1, 256))
+    aside = [float(numpy.abs(plasma - colour).max(axis=1).min()) for colour in numpy.unique(colours, axis=0)]
     samples = rows("/film", "VideoStream:sample")
+    measured = rows("/measurements", "vitriol.Measurements:message")
+    cells = [
+        [float(cell) if cell else math.nan for cell in row]
+        for row in list(csv.reader(open(path("measurements.csv"), newline="")))[1:]
+    ]
     # All of a moment: the table has the last of each alone.
-    printed = subprocess.run([program, "rrd", "print", "-vvv", "--entity", "/tf", rrd], capture_output=True, text=True)
-    frames = set(re.findall(r"\[([a-z_0-9]+)\]", printed.stdout))
+    frames = set()
+    for entity in ["/tf", "/flasks"]:
+        printed = subprocess.run([program, "rrd", "print", "-vvv", "--entity", entity, rrd], capture_output=True, text=True)
+        frames.update(re.findall(r"\[([a-z_0-9]+)\]", printed.stdout))
     return {
         "check": checked.returncode,
-        "clouds": len(clouds),
+        "cloud_times_ns": [time for time, _ in clouds],
+        "colours": len(colours),
+        "aside_of_plasma": max(aside),
+        "measurement_times_ns": [time for time, _ in measured],
+        "measurements_are_the_table": numpy.array_equal(
+            [list(message[0].values()) for _, message in measured], cells, equal_nan=True
+        ),
+        "flask_times_ns": [time for time, _ in rows("/flasks", "Transform3D:child_frame")],
         "same_points": bool(last.shape == points.shape and numpy.array_equal(last.astype("f4"), points)),
         "film": len(samples),
-        "film_begins": bytes(numpy.array(samples[0], dtype="u1").ravel()[:5].tolist()).hex(),
+        "film_begins": bytes(numpy.array(samples[0][1], dtype="u1").ravel()[:5].tolist()).hex(),
         "frames": sorted(frames),
         "inputs": len(rows("/xr/input/left", "vitriol.xr.Input:message")),
     }
@@ -140,6 +184,7 @@ print(
             "surfaces": surfaces(),
             "tables": tables(),
             "recording": recording(points),
+            "conversions": conversions(),
             "report_is_valid": report_is_valid(),
         },
         allow_nan=False,

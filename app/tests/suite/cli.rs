@@ -1,9 +1,9 @@
 //! The binary from outside: exit codes, one message, pure JSON.
 
-#[cfg(target_os = "linux")]
-pub mod runtime;
 mod bounds;
 mod editors;
+#[cfg(target_os = "linux")]
+pub mod runtime;
 mod shown;
 
 use std::fs;

@@ -3,6 +3,7 @@
 mod formats;
 mod refused;
 mod runs;
+mod times;
 
 use std::path::Path;
 use std::process::Output;

@@ -91,3 +91,19 @@ fn rows_are_written_as_they_come() {
         );
     }
 }
+
+/// Flasks may be called so that nothing is left of two names but the same letters.
+#[test]
+fn each_column_has_an_identifier_of_its_own() {
+    let columns = columns(&sample(0.0));
+    let names = identifiers(&columns);
+    assert_eq!(names.len(), columns.len());
+    assert_eq!(names[..2], ["time_s", "density_error_mean_1"]);
+    let letters: BTreeSet<String> = names.iter().map(|name| name.replace('_', "")).collect();
+    assert_eq!(letters.len(), names.len(), "{names:?}");
+    for name in &names {
+        assert!(name.starts_with(|c: char| c.is_ascii_lowercase()), "{name}");
+        let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        assert!(name.chars().all(fits), "{name}");
+    }
+}

@@ -8,9 +8,11 @@ use mcap::records::MessageHeader;
 use prost::Message;
 
 use super::message::{
-    CompressedVideo, FieldType, PackedElementField, PointCloud, Quaternion, Vector3,
+    CompressedVideo, FieldType, FrameTransforms, PackedElementField, PointCloud, Quaternion,
+    Vector3,
 };
 use super::{TrackError, TrackWriter, descriptor, encode, limits, names};
+use crate::Pose;
 
 /// Bytes after which a chunk ends.
 const LONGEST_CHUNK: usize = 8 << 20;
@@ -19,21 +21,28 @@ const LONGEST_CHUNK: usize = 8 << 20;
 #[derive(Clone, Copy, Debug)]
 pub enum Annex<'a> {
     /// Points in the stage, m, on `/particles`: rows of as many numbers as there are names, of which the first three are
-    /// x, y and z.
+    /// x, y and z. Viewers know a point's colour by the fields red, green, blue and alpha, which follow.
     Points {
         /// Names of the columns.
         fields: &'a [&'a str],
         /// The rows, one after the other.
         rows: &'a [f32],
+        /// Each row's colour: red, green, blue and alpha, sRGB-encoded.
+        colours: &'a [[u8; 4]],
     },
+    /// `stage_from_flask` of each flask, on `/flasks`. A track's own `/tf` has the time at which a step began; these may have
+    /// the time of the state that they belong to.
+    Flasks(&'a [Pose]),
     /// A frame of H.264 (Annex B), on `/film`.
     Film(&'a [u8]),
-    /// An object, on `/measurements`.
-    Measurement {
-        /// The object, as JSON.
-        json: &'a str,
-        /// Its JSON schema.
-        schema: &'a str,
+    /// Numbers of one state, as a message with a field for each.
+    Measurements {
+        /// Their topic. All messages of a topic have the same names.
+        topic: &'a str,
+        /// Their names: letters of ASCII, digits and `_`, each once.
+        names: &'a [String],
+        /// As many values; NaN where there is none.
+        values: &'a [f64],
     },
     /// An event of the session, on `/events`: see [`Track::events`](super::Track::events).
     Event {
@@ -53,7 +62,7 @@ pub enum Annex<'a> {
 
 /// A topic's name, schema and encoding.
 struct Topic<'a> {
-    name: &'static str,
+    name: &'a str,
     schema: &'static str,
     encodings: [&'static str; 2],
     schema_bytes: std::borrow::Cow<'a, [u8]>,
@@ -74,11 +83,17 @@ impl Annex<'_> {
                 encodings: ["protobuf"; 2],
                 schema_bytes: descriptor::compressed_video().into(),
             },
-            Self::Measurement { schema, .. } => Topic {
-                name: names::MEASUREMENTS,
-                schema: "vitriol.Sample",
-                encodings: names::JSON,
-                schema_bytes: schema.as_bytes().into(),
+            Self::Flasks(_) => Topic {
+                name: names::FLASKS,
+                schema: descriptor::FRAME_TRANSFORMS,
+                encodings: ["protobuf"; 2],
+                schema_bytes: descriptor::frame_transforms().into(),
+            },
+            Self::Measurements { topic, names, .. } => Topic {
+                name: topic,
+                schema: descriptor::MEASUREMENTS,
+                encodings: ["protobuf"; 2],
+                schema_bytes: descriptor::measurements(names).into(),
             },
             Self::Event { schema, .. } => Topic {
                 name: names::EVENTS,
@@ -97,7 +112,16 @@ impl Annex<'_> {
 
     fn encoded(&self, time_ns: i64) -> Vec<u8> {
         match self {
-            Self::Points { fields, rows } => points(time_ns, fields, rows).encode_to_vec(),
+            Self::Points {
+                fields,
+                rows,
+                colours,
+            } => points(time_ns, fields, rows, colours).encode_to_vec(),
+            Self::Flasks(stage_from_flasks) => FrameTransforms {
+                transforms: encode::flasks(time_ns, stage_from_flasks),
+            }
+            .encode_to_vec(),
+            Self::Measurements { values, .. } => numbers(values),
             Self::Film(bytes) => CompressedVideo {
                 timestamp: Some(encode::timestamp(time_ns)),
                 frame_id: names::CAMERA.into(),
@@ -105,19 +129,36 @@ impl Annex<'_> {
                 format: "h264".into(),
             }
             .encode_to_vec(),
-            Self::Measurement { json, .. }
-            | Self::Event { json, .. }
-            | Self::Progress { json, .. } => json.as_bytes().to_vec(),
+            Self::Event { json, .. } | Self::Progress { json, .. } => json.as_bytes().to_vec(),
         }
     }
 }
 
-fn points(time_ns: i64, fields: &[&str], rows: &[f32]) -> PointCloud {
-    let field = |(number, name): (u32, &&str)| PackedElementField {
-        name: (*name).into(),
-        offset: 4 * number,
-        kind: FieldType::Float32 as i32,
+/// A message of doubles, whose fields are numbered from 1.
+fn numbers(values: &[f64]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (number, value) in (1..).zip(values) {
+        prost::encoding::double::encode(number, value, &mut bytes);
+    }
+    bytes
+}
+
+fn points(time_ns: i64, fields: &[&str], rows: &[f32], colours: &[[u8; 4]]) -> PointCloud {
+    let field = |name: &str, offset: u32, kind: FieldType| PackedElementField {
+        name: name.into(),
+        offset,
+        kind: kind as i32,
     };
+    let floats = (0..).zip(fields);
+    let floats = floats.map(|(number, name)| field(name, 4 * number, FieldType::Float32));
+    let row_bytes = 4 * fields.len() as u32;
+    let components = (row_bytes..).zip(["red", "green", "blue", "alpha"]);
+    let components = components.map(|(offset, name)| field(name, offset, FieldType::Uint8));
+    let mut data = Vec::with_capacity(4 * (rows.len() + colours.len()));
+    for (row, colour) in rows.chunks(fields.len().max(1)).zip(colours) {
+        data.extend(row.iter().flat_map(|value| value.to_le_bytes()));
+        data.extend(colour);
+    }
     PointCloud {
         timestamp: Some(encode::timestamp(time_ns)),
         frame_id: names::STAGE.into(),
@@ -134,9 +175,9 @@ fn points(time_ns: i64, fields: &[&str], rows: &[f32]) -> PointCloud {
                 w: Some(1.0),
             }),
         }),
-        point_stride: 4 * fields.len() as u32,
-        fields: (0..).zip(fields).map(field).collect(),
-        data: rows.iter().flat_map(|value| value.to_le_bytes()).collect(),
+        point_stride: row_bytes + 4,
+        fields: floats.chain(components).collect(),
+        data,
     }
 }
 
@@ -147,6 +188,10 @@ impl TrackWriter {
     /// # Errors
     /// [`TrackError::Full`] where too much waits for the disk, so that it is not taken; [`TrackError::Io`] after the end.
     pub fn add(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), TrackError> {
+        // Rerun 0.41 loses the other messages of a topic in which one has no transforms.
+        if matches!(annex, Annex::Flasks([])) {
+            return Ok(());
+        }
         self.make_room()?;
         let added = self.put_annex(time_ns, annex);
         let bytes = added.map_err(|error| self.failed(error))?;
@@ -186,7 +231,7 @@ impl TrackWriter {
         };
         let message = annex.encoded(time_ns);
         mcap.write_to_known_channel(&header, &message)?;
-        self.annexes.insert(topic.name, channel_id);
+        self.annexes.insert(topic.name.to_owned(), channel_id);
         Ok(message.len())
     }
 }

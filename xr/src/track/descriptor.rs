@@ -19,6 +19,8 @@ pub const FRAME_TRANSFORMS: &str = "foxglove.FrameTransforms";
 pub const POINT_CLOUD: &str = "foxglove.PointCloud";
 /// Full name of the schema of `/film`.
 pub const COMPRESSED_VIDEO: &str = "foxglove.CompressedVideo";
+/// Full name of the schema of measurements.
+pub const MEASUREMENTS: &str = "vitriol.Measurements";
 /// Full name of the schema of `/xr/input/left` and `/xr/input/right`.
 pub const INPUT: &str = "vitriol.xr.Input";
 /// Full name of the schema of `/xr/frame`.
@@ -144,6 +146,14 @@ pub fn compressed_video() -> Vec<u8> {
     set.encode_to_vec()
 }
 
+/// An encoded `FileDescriptorSet` with [`MEASUREMENTS`], a message of a double for each name.
+pub fn measurements(names: &[String]) -> Vec<u8> {
+    let fields = alike(names, Type::Double);
+    let numbers = message("Measurements", fields);
+    let file = file("vitriol/measurements.proto", "vitriol", &[], numbers);
+    FileDescriptorSet { file: vec![file] }.encode_to_vec()
+}
+
 /// Google's own timestamp.
 const TIMESTAMP: &str = "google/protobuf/timestamp.proto";
 
@@ -252,10 +262,10 @@ fn message(name: &str, field: Vec<FieldDescriptorProto>) -> DescriptorProto {
 }
 
 /// Fields of one type, numbered from 1.
-fn alike(names: &[&str], kind: Type) -> Vec<FieldDescriptorProto> {
+fn alike(names: &[impl AsRef<str>], kind: Type) -> Vec<FieldDescriptorProto> {
     (1..)
         .zip(names)
-        .map(|(number, name)| field(name, number, kind))
+        .map(|(number, name)| field(name.as_ref(), number, kind))
         .collect()
 }
 

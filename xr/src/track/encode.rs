@@ -17,10 +17,16 @@ pub fn transforms(frame: &PoseFrame, stage_from_flasks: &[Pose]) -> FrameTransfo
         transforms.push(at(&hand.stage_from_grip, names::GRIP[side as usize]));
         transforms.push(at(&hand.stage_from_aim, names::AIM[side as usize]));
     }
-    for (index, flask) in stage_from_flasks.iter().enumerate() {
-        transforms.push(at(flask, &format!("{}{index}", names::FLASK)));
-    }
+    transforms.extend(flasks(frame.time_ns, stage_from_flasks));
     FrameTransforms { transforms }
+}
+
+/// The transforms of flasks.
+pub fn flasks(time_ns: i64, stage_from_flasks: &[Pose]) -> Vec<FrameTransform> {
+    let numbered = stage_from_flasks.iter().enumerate();
+    numbered
+        .map(|(index, flask)| transform(time_ns, flask, &format!("{}{index}", names::FLASK)))
+        .collect()
 }
 
 /// `world_from_stage`, for `/tf_static`: viewers expect Z up, the stage has Y up. A quarter

@@ -76,6 +76,7 @@ pub struct PoseMessage {
 #[repr(i32)]
 pub enum FieldType {
     Unknown = 0,
+    Uint8 = 1,
     Float32 = 7,
 }
 

@@ -56,7 +56,7 @@ pub struct TrackWriter {
     pending: Pending,
     channels: Channels,
     /// Channels of annexes, by topic.
-    pub(super) annexes: BTreeMap<&'static str, u16>,
+    pub(super) annexes: BTreeMap<String, u16>,
     /// Bytes of annexes since the last flush.
     pub(super) annexed: usize,
     /// Bytes of annexes in all.

@@ -1,5 +1,6 @@
 //! Pose tracks from outside: files written, damaged, killed, converted and replayed.
 
+mod annex;
 mod builtin;
 mod compression;
 mod damage;

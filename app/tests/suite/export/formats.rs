@@ -17,7 +17,7 @@ fn texts(value: &Value) -> Vec<&str> {
     texts.map(|text| text.as_str().unwrap()).collect()
 }
 
-/// PyVista, Arrow, Rerun and Khronos's validator read all formats of one run, and what they find is what there is: the
+/// PyVista, meshio, Arrow, Rerun and Khronos's validator read all formats of one run, and what they find is what there is: the
 /// scene's volumes, the glass of its flasks, as many moments as were asked for, each format's numbers the others'.
 #[test]
 fn other_programs_read_what_is_there() {
@@ -70,13 +70,13 @@ fn other_programs_read_what_is_there() {
     assert_eq!(
         texts(&particles["names"]),
         [
-            "acid [kg/kg]",
-            "flask [number]",
-            "id [1]",
-            "mass [kg]",
-            "temperature [degC]",
-            "velocity [m/s]",
-            "volume [m3]",
+            "acid_kg_per_kg",
+            "flask",
+            "id",
+            "mass_kg",
+            "temperature_degC",
+            "velocity_m_per_s",
+            "volume_m3",
         ]
     );
     // 100 mL of water and 100 mL of acid, cold: nothing has been poured yet.
@@ -130,8 +130,23 @@ fn other_programs_read_what_is_there() {
 
     let recording = &found["recording"];
     assert_eq!(recording["check"], 0);
-    assert_eq!(recording["clouds"], 3);
+    let nanoseconds =
+        |times: &[f64]| -> Vec<f64> { times.iter().map(|time| (time * 1e9).round()).collect() };
+    assert_eq!(numbers(&recording["cloud_times_ns"]), nanoseconds(&times));
     assert_eq!(recording["same_points"], true);
+    assert_eq!(recording["colours"], particles["count"]);
+    // Between two of our 17 entries the map is straight, and a byte is 1/255.
+    let aside = number(&recording["aside_of_plasma"]);
+    assert!(aside < 0.02, "{aside}");
+    assert_eq!(
+        numbers(&recording["measurement_times_ns"]),
+        nanoseconds(&numbers(&tables["times"]))
+    );
+    assert_eq!(recording["measurements_are_the_table"], true);
+    // Before the first step, and after each of nine.
+    let states: Vec<f64> = (0..=9).map(|step| f64::from(step) / 90.0).collect();
+    let flasks = numbers(&recording["flask_times_ns"]);
+    assert_eq!(flasks, nanoseconds(&states));
     // At 30 a second from the first step on: at 1/90, 3/90, 6/90 and 9/90 s.
     assert_eq!(recording["film"], 4);
     // Annex B begins with a start code and the sequence's parameters.
@@ -143,6 +158,13 @@ fn other_programs_read_what_is_there() {
     // Nine steps, and the end.
     assert_eq!(recording["inputs"], 10);
     assert_eq!(found["report_is_valid"], true);
+
+    let conversions = &found["conversions"];
+    assert_eq!(texts(&conversions["scalars"]).len(), 6);
+    for format in ["vtu", "vtk", "ply"] {
+        let kept = &conversions["kept"][format];
+        assert_eq!(*kept, conversions["scalars"], "{format}");
+    }
 
     let moments = ["000000", "000001", "000002"];
     for moment in moments {

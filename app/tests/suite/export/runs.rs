@@ -76,7 +76,7 @@ fn a_scaled_scene_is_exported_at_its_real_size() {
             .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()))
             .collect()
     };
-    let (masses, volumes) = (array("mass [kg]"), array("volume [m3]"));
+    let (masses, volumes) = (array("\"mass_kg\""), array("\"volume_m3\""));
     let density = masses.iter().sum::<f64>() / volumes.iter().sum::<f64>();
     let scene = Scene::builtin("single-dilution").unwrap();
     assert!(
