@@ -5,7 +5,6 @@ use vitriol_gpu::{Buffer, CopyRegion, Gpu, GpuError, Recorder, bytes_of_elements
 use vitriol_shaders::layout;
 
 use crate::spray::Flights;
-use crate::tints;
 
 /// Most drops that lie where they came to rest, as in `common/picture/spray_drops.wgsl`.
 pub const MOST_RESTING: usize = 128;
@@ -17,9 +16,8 @@ pub struct RestingDrop {
     pub position: Vec3,
     /// Its radius, metres.
     pub radius: f32,
-    /// Its acid mass fraction, by which it has the liquids' tints as a legend shows them: by those of its own width no drop could be told from
-    /// another. `None` for a clear drop.
-    pub acid: Option<f32>,
+    /// Its acid mass fraction, by which it is tinted as a flying drop is.
+    pub acid: f32,
 }
 
 /// Puts them behind the flights that a frame draws.
@@ -47,8 +45,7 @@ impl Resting {
                 position: (drop.position / length_scale).to_array(),
                 radius: drop.radius / length_scale,
                 drops: 1,
-                acid: drop.acid.unwrap_or(0.0),
-                tinted: drop.acid.map_or(0.0, |_| tints::PATH),
+                acid: drop.acid,
                 ..layout::Flight::default()
             };
         }

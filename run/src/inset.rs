@@ -122,7 +122,7 @@ impl Inset {
             }
         }
         canvas.panel([corner[0], corner[1] - title], [outer[0], title]);
-        let caption = format!("{SLOWER:.0} times slower");
+        let caption = format!("first second, {SLOWER:.0} times slower");
         canvas.write(SIZE, [corner[0] + 8, corner[1] - title + 3], &caption);
         for (row, pixels) in picture.chunks_exact(4 * extent[0]).enumerate() {
             let first = 4 * ((corner[1] + FRAME + row) * width + corner[0] + FRAME);

@@ -201,7 +201,7 @@ impl Marks {
             Some(RestingDrop {
                 position: mark.place(hands)?,
                 radius: cap_radius(mark.volume) as f32,
-                acid: Some(mark.acid),
+                acid: mark.acid,
             })
         });
         drawn.collect()
@@ -419,7 +419,7 @@ mod tests {
         let [lies] = marks.drawn([&[], &[]])[..] else {
             unreachable!("one drop")
         };
-        assert!((lies.acid.unwrap() - 0.3).abs() < 1e-6, "{lies:?}");
+        assert!((lies.acid - 0.3).abs() < 1e-6, "{lies:?}");
     }
 
     /// What falls on a drop joins it, up to a drop's 0.05 mL; ten times as much water takes it off a hand.

@@ -176,6 +176,8 @@ fn answered(text: &str) -> Option<Action> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use vitriol_lesson::Lesson;
+    use vitriol_lesson::procedure::Condition;
 
     fn switch(key: &str, value: &str) -> Switch {
         Switch {
@@ -264,6 +266,28 @@ mod tests {
         ] {
             let said = Action::of(&switch(key, value)).unwrap_err().to_string();
             assert!(said.contains(words) && said.contains(key), "{said}");
+        }
+    }
+
+    /// Without them the lesson would stop at its first question, and no film of it would show the pour.
+    #[test]
+    fn the_track_of_the_wrong_order_answers_its_lessons_questions() {
+        let lesson = Lesson::builtin("wrong-order").unwrap();
+        let track = crate::track::load("wrong-order").unwrap();
+        let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+        let given: Vec<Action> = switches.filter_map(|it| Action::of(it).unwrap()).collect();
+        let asked = lesson.steps.iter().filter_map(|step| match step.condition {
+            Condition::Answered(question) => Some((step.id.clone(), question)),
+            _ => None,
+        });
+        let asked: Vec<_> = asked.collect();
+        assert_eq!(given.len(), asked.len());
+        for (given, (id, question)) in given.into_iter().zip(asked) {
+            let Action::Answer { step, answer } = given else {
+                unreachable!("{given:?}")
+            };
+            assert_eq!(step, Some(id));
+            assert!(question.has(answer) && question.right.is_none_or(|it| it == answer));
         }
     }
 }

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 11] = [
+pub const NAMES: [&str; 12] = [
     "two-flasks",
     "dilute",
     "shake",
@@ -18,6 +18,7 @@ pub const NAMES: [&str; 11] = [
     "examination",
     "layer-and-swirl",
     "rinse-the-bottle",
+    "wrong-order",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -34,6 +35,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "examination" => Some(include_str!("../../tracks/examination.toml")),
         "layer-and-swirl" => Some(include_str!("../../tracks/layer-and-swirl.toml")),
         "rinse-the-bottle" => Some(include_str!("../../tracks/rinse-the-bottle.toml")),
+        "wrong-order" => Some(include_str!("../../tracks/wrong-order.toml")),
         _ => None,
     }
 }

@@ -190,8 +190,9 @@ mod tests {
         let usual = |name| usual(&Lesson::builtin(name).unwrap());
         assert_eq!(usual("dilute").unwrap(), "dilute");
         assert_eq!(usual("examination").unwrap(), "examination");
-        let none = usual("wrong-order").unwrap_err().to_string();
-        assert!(none.contains("water-into-acid"), "{none}");
+        assert_eq!(usual("wrong-order").unwrap(), "wrong-order");
+        let none = usual("wrong-order-hot").unwrap_err().to_string();
+        assert!(none.contains("hot-acid"), "{none}");
     }
 
     /// Of ISO 639-2's two codes that of the language's own name.

@@ -15,9 +15,8 @@ struct Flight {
     drops: u32,
     /// How far about its place they lie, in the scene's unit; 0 of a jet's, which lie behind one another.
     about: f32,
-    /// Acid fraction, of which the drop has the tint of so long a way through liquid, m: 0 for a clear one.
+    /// Acid fraction of its drops.
     acid: f32,
-    tinted: f32,
 }
 
 /// Most drops that are drawn of a flight: a jet has seven at most.

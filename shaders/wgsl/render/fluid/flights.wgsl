@@ -39,10 +39,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let from_ = drops[n];
-    var flight = Flight(from_.position, from_.radius, vec3<f32>(0.0), 0u, from_.about, 0.0, 0.0);
+    var flight = Flight(from_.position, from_.radius, vec3<f32>(0.0), 0u, from_.about, 0.0);
     if (from_.mass > 0.0 && from_.radius > 0.0 && from_.density > 0.0) {
         let number = from_.mass * run.mass / (from_.density * bubble_volume(from_.radius));
         flight.drops = u32(clamp(number + 0.5, 1.0, f32(MOST_DROPS)));
+        flight.acid = from_.acid / from_.mass;
         let speed = length(from_.velocity);
         if (speed > 0.0) { flight.direction = from_.velocity / speed; }
     }

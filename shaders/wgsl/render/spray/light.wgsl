@@ -12,6 +12,9 @@
 
 /// Refractive index of water at 20 °C.
 const DROP_INDEX = 1.333;
+/// The way through liquid of which a drop has the tint, m: that of the legend, as in `render/src/tints.rs`. By its own width acid could not
+/// be told from water.
+const LEGEND_PATH = 0.06;
 /// Places in a pixel at which a drop is seen.
 const DROP_TAPS = array<vec2<f32>, 4>(
     vec2<f32>(-0.25, -0.25), vec2<f32>(0.25, -0.25), vec2<f32>(-0.25, 0.25), vec2<f32>(0.25, 0.25));
@@ -40,7 +43,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     let view = &frame.views[place.eye];
     let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
     let drawn = drawn_drop(flight.radius, depth, (*view).focal);
-    let kept = exp(-flight.tinted * mix(frame.water, frame.acid, flight.acid));
+    let kept = exp(-LEGEND_PATH * mix(frame.water, frame.acid, flight.acid));
     var light = vec3<f32>(0.0);
     for (var n = 0u; n < 4u; n++) {
         let ray = normalize(seen_along(place.eye, vec2<f32>(place.pixel) + 0.5 + DROP_TAPS[n]));
