@@ -448,6 +448,10 @@ impl Experiment for Laboratory {
             ("surface tension left out", counted.tension_skipped),
             ("bubble without a place", counted.bubbles_refused),
             ("drops of a jet or film left out", counted.spray_refused),
+            (
+                "bubble whose surroundings the driver cut",
+                counted.bubbles_cut,
+            ),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),

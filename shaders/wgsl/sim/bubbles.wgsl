@@ -234,6 +234,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     drag_along(bubble, motion, reach, cells, lane);
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
     let touching = touching_of(bubble, around, slot, first, lane);
+    if (gained.is_cut || touching.is_cut) { atomicAdd(&counters.bubbles_cut, 1u); }
     // A bubble that divides in this step joins none.
     let larger = select(select(s.larger, touching.larger, cavity_share(bubble.radius) > 0.0), 0u, half.parent != NO_PARENT);
     if (lane != 0u) { return; }

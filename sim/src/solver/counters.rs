@@ -40,4 +40,7 @@ pub struct Counters {
     pub spray_refused: u32,
     /// Particles that a cloth took up.
     pub wiped: u32,
+    /// Bubbles and steps in which the driver ended a loop over what is around one before its end, as Mesa 22.3's software driver does after
+    /// 65,535 turns.
+    pub bubbles_cut: u32,
 }

@@ -76,6 +76,30 @@ fn where_long_lists_have_no_room_all_end_with_their_places() {
     }
 }
 
+/// A crowd behind more particles than Mesa's software driver (22.3) gives an invocation turns of its loops. Each particle of the crowd asks
+/// about all before it for its place in the order; where that ends early, several get one place, and all but one of them are gone.
+#[test]
+fn a_crowd_behind_a_large_cloud_loses_no_particle() {
+    let (across, crowd) = (41, 150);
+    let cloud = (0..across * across * across).map(|n| {
+        let site = [n % across, n / across % across, n / (across * across)];
+        DVec3::from_array(site.map(f64::from)) * 2.0 * H
+    });
+    // In the middle of a cell.
+    let centre = DVec3::splat(-19.5 * 1.05 * H);
+    let mut all: Vec<_> = cloud.map(|site| drop_at(site, DVec3::ZERO)).collect();
+    assert!(all.len() > 65_535);
+    all.extend(ball(&mut Random(6), crowd, centre, 0.4 * H));
+    let count = all.len() as u32;
+    let device = gpu::device();
+    let solver = Setup::new(weightless(), Vec::new(), all).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let state = solver.snapshot().unwrap();
+    let mut known: Vec<_> = state.tags.iter().map(|tag| tag[1]).collect();
+    known.sort_unstable();
+    assert!(known.into_iter().eq(0..count), "a particle is gone");
+}
+
 /// Two crowds at one wall, within and without, see nothing of each other.
 #[test]
 fn a_long_list_knows_nothing_behind_glass() {

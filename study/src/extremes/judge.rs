@@ -227,6 +227,7 @@ fn limiters(run: &Run) -> BTreeMap<Name, u32> {
         ("surface tension left out", c.tension_skipped),
         ("bubble without a place", c.bubbles_refused),
         ("drops of a jet or film left out", c.spray_refused),
+        ("bubble whose surroundings the driver cut", c.bubbles_cut),
     ]
     .into_iter()
     .filter(|&(_, times)| times > 0)

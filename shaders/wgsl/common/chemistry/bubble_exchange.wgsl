@@ -55,6 +55,8 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
 struct Gained {
     mass: f32,
     enthalpy: f32,
+    /// Whether the driver ended this loop over the particles around, or one before it.
+    is_cut: bool,
 }
 
 /// Exchanges steam with the particles around and gives them its volume; all lanes must ask.
@@ -67,7 +69,8 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
     let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
     let held = (1.0 - bubble.cavity) * bubble_volume(bubble.radius);
     let gas_share = held / (VOLUME * max(s.weight, 1e-12));
-    for (var n = lane; n < count; n += LANES) {
+    var n = lane;
+    for (; n < count; n += LANES) {
         let run = cell_around(cell, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
@@ -103,5 +106,5 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
             enthalpy = added(enthalpy, heat_of_steam);
         }
     }
-    return Gained(lane_sum_of_quanta(mass, MASS_QUANTUM), lane_sum_of_quanta(enthalpy, ENTHALPY_QUANTUM));
+    return Gained(lane_sum_of_quanta(mass, MASS_QUANTUM), lane_sum_of_quanta(enthalpy, ENTHALPY_QUANTUM), n < count);
 }

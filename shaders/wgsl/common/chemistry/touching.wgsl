@@ -29,6 +29,8 @@ struct Touching {
     larger: u32,
     /// Way in which it leaves those that it overlaps and, as both are too wide, will not join, m.
     way: vec3<f32>,
+    /// Whether the driver ended the loop over all bubbles.
+    is_cut: bool,
 }
 
 /// What touches a cavity, of all bubbles: the particle nearest to another may be out of its reach. All lanes must ask.
@@ -37,7 +39,8 @@ fn touching_of(bubble: Bubble, around: Around, slot: u32, first: u32, lane: u32)
     var larger = 0u;
     let key = key_of(bubble, slot);
     let count = select(0u, live[count_of_live()], cavity_share(bubble.radius) > 0.0);
-    for (var n = lane; n < count; n += LANES) {
+    var n = lane;
+    for (; n < count; n += LANES) {
         let other = bubbles[first + live[n]];
         let offset = bubble.position - other.position;
         let distance = length(offset);
@@ -52,7 +55,7 @@ fn touching_of(bubble: Bubble, around: Around, slot: u32, first: u32, lane: u32)
         }
     }
     let sum = vec3<i32>(lane_sum_of_integers(way.x), lane_sum_of_integers(way.y), lane_sum_of_integers(way.z));
-    return Touching(lane_max(larger), vec3<f32>(sum) * WAY_QUANTUM);
+    return Touching(lane_max(larger), vec3<f32>(sum) * WAY_QUANTUM, n < count);
 }
 
 /// Greatest radius of a bubble where one is, m: half of its vessel's.

@@ -27,4 +27,6 @@ struct Counters {
     spray_refused: atomic<u32>,
     /// Particles that a cloth took up.
     wiped: atomic<u32>,
+    /// Bubbles and steps in which the driver ended a loop over what is around one.
+    bubbles_cut: atomic<u32>,
 }
