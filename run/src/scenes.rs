@@ -108,7 +108,7 @@ fn name_of(file: &str) -> String {
 }
 
 fn read(file: &str) -> Result<Text, Failure> {
-    if !Path::new(file).exists() {
+    if files::is_absent(Path::new(file)) {
         return Err(format!(
             "scene {file:?}: no such file; {}; or give a path",
             files::suggested(file, &Scene::builtin_names())

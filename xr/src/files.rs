@@ -42,6 +42,11 @@ pub enum FileError {
     },
 }
 
+/// Whether nothing has that path. What may not be looked at may be there: opening it gives the cause.
+pub fn is_absent(path: &Path) -> bool {
+    matches!(path.try_exists(), Ok(false))
+}
+
 /// The contents of `file`, which is to be a `what` of at most `limit` bytes.
 ///
 /// Its kind is checked before it is opened: opening a pipe waits for a writer, and a device may be endless. A user who puts a pipe in the

@@ -38,7 +38,7 @@ pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> 
 pub fn open(name: &str) -> Result<Lesson, Failure> {
     let builtin = Lesson::builtin_names();
     let is_builtin = builtin.contains(&name);
-    if !is_builtin && !Path::new(name).exists() {
+    if !is_builtin && files::is_absent(Path::new(name)) {
         let known = files::suggested(name, &builtin);
         return Err(format!(
             "lesson {name:?}: no such file; {known}; or give a path"

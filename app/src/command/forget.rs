@@ -7,6 +7,7 @@ use serde::Serialize;
 use vitriol_record::store::{Forgotten, Store, StoreError, default_path};
 use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure, Format, emit};
+use vitriol_xr::files;
 
 use crate::cli::ForgetArgs;
 
@@ -55,10 +56,9 @@ pub fn run(args: &ForgetArgs, format: Format) -> Result<(), Failure> {
                 .ok_or("this system tells no folder for data: name the class's file with --class");
             let class: PathBuf = class.input()?;
             // Nobody has been kept yet.
-            let forgotten = if class.exists() {
-                forget(args, &class)?
-            } else {
-                Forgotten::default()
+            let forgotten = match files::is_absent(&class) {
+                true => Forgotten::default(),
+                false => forget(args, &class)?,
             };
             (class, forgotten)
         }

@@ -154,7 +154,7 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
     /// Grades one track: its sitting, what is in it, and whether an earlier call left that.
     fn track(&self, file: &Path) -> Result<(Session, Graded, bool), Failure> {
         let (args, asked) = (self.args, &self.expected.asked);
-        if !file.exists() {
+        if files::is_absent(file) {
             return Err(format!(
                 "{}: no such file; name recordings or folders of them",
                 file.display()
@@ -238,12 +238,22 @@ fn tracks(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             continue;
         }
         let mut inside = Vec::new();
-        for entry in std::fs::read_dir(path).other()? {
+        let unlisted = |error| {
+            format!(
+                "{}: cannot be listed: {error}; may you read it?",
+                path.display()
+            )
+        };
+        for entry in std::fs::read_dir(path).map_err(unlisted).other()? {
             let file = entry.other()?.path();
             let track = file
                 .extension()
                 .is_some_and(|it| it.eq_ignore_ascii_case("mcap"));
-            if track && !file.is_dir() {
+            // What macOS lays beside a file on other file systems.
+            let is_beside = file
+                .file_name()
+                .is_some_and(|name| name.as_encoded_bytes().starts_with(b"._"));
+            if track && !is_beside && !file.is_dir() {
                 inside.push(file);
             }
         }

@@ -5,6 +5,8 @@ mod editors;
 #[cfg(target_os = "linux")]
 pub mod runtime;
 mod shown;
+#[cfg(unix)]
+mod unseen;
 
 use std::fs;
 use std::path::Path;

@@ -343,8 +343,11 @@ fn a_danger_caps_the_points_and_is_named() {
     }
     put(here, "ada.mcap", &recording(&bare));
     put(here, "bob.mcap", &recording(&events(0.0)));
+    // What macOS lays beside a file is no student's.
+    fs::write(here.join("._ada.mcap"), b"Mac OS X").unwrap();
     let out = here.join("out");
     let class = read(here, &["--out", out.to_str().unwrap()]);
+    assert_eq!(class.lines.len(), 2);
     // 60 of 100 are 51 of the 85 that can be had without heat.
     let ada = line(&class, "ada");
     assert_eq!((ada.points, ada.of), (Some(51), Some(85)));
@@ -354,6 +357,8 @@ fn a_danger_caps_the_points_and_is_named() {
     let bob = line(&class, "bob");
     assert_eq!((bob.points, bob.caps.len()), (Some(85), 0));
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
+    // By the mark Excel knows its encoding.
+    assert!(table.starts_with('\u{feff}'), "{table}");
     assert!(table.contains(",points,of,caps,finished,"), "{table}");
     assert!(table.contains(why), "{table}");
     let told = VITRIOL.run(here, &["grade", ".", "--scene", SCENE]);

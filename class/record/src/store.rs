@@ -80,7 +80,8 @@ impl Store {
     /// # Errors
     /// [`StoreError`], also where there is none.
     pub fn open_existing(path: &Path) -> Result<Self, StoreError> {
-        if !path.exists() {
+        // What may not be looked at may be there: opening it gives the cause.
+        if matches!(path.try_exists(), Ok(false)) {
             return Err(StoreError::Missing {
                 path: path.to_owned(),
             });

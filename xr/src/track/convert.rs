@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::files::suggested;
+use crate::files::{self, suggested};
 
 use super::{Annex, Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
 
@@ -19,7 +19,7 @@ pub fn load(name: &str) -> Result<Track, TrackError> {
         return Ok(Keyframes::parse(text, &builtin::file(name))?.sample_track());
     }
     let file = Path::new(name);
-    if !file.exists() {
+    if files::is_absent(file) {
         return Err(TrackError::Unknown {
             name: name.into(),
             known: suggested(name, &builtin::NAMES),

@@ -104,8 +104,8 @@ fn incomplete(topic: &str) -> Flaw {
     Flaw::new(
         topic,
         "message",
-        "is missing in this step",
-        "each step has one",
+        "is missing in this step, or lies apart from its other messages",
+        "each step has one, and a step's messages follow one another: sort the file by log time",
     )
 }
 

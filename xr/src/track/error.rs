@@ -74,7 +74,7 @@ pub enum TrackError {
     },
     /// A topic's messages are of another schema.
     #[error(
-        "{file}: topic {topic} holds {found}; it must hold {expected} in protobuf",
+        "{file}: topic {topic} holds {found}; it must hold {expected}",
         file = file.display()
     )]
     Schema {
@@ -84,8 +84,8 @@ pub enum TrackError {
         topic: String,
         /// Schema and encoding found.
         found: String,
-        /// Name of the schema that the topic has in each track.
-        expected: &'static str,
+        /// Schema that the topic has in each track, and its encodings.
+        expected: String,
     },
     /// A message has an invalid value.
     #[error("{file}: {place}: {field} {problem}; {expected}", file = file.display())]

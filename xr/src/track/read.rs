@@ -210,14 +210,17 @@ impl<'a> Reading<'a> {
             name == expected && [encoding, channel.message_encoding.as_str()] == encodings
         });
         if !fits {
-            let found = schema.map_or("no schema".into(), |(name, _)| {
-                format!("{name} in {}", channel.message_encoding)
+            let told = |name: &str, [schema, messages]: [&str; 2]| {
+                format!("{name} (schema in {schema}, messages in {messages})")
+            };
+            let found = schema.map_or("no schema".into(), |(name, encoding)| {
+                told(name, [encoding, &channel.message_encoding])
             });
             return Err(TrackError::Schema {
                 file: self.file.into(),
                 topic: topic.into(),
                 found,
-                expected,
+                expected: told(expected, encodings),
             });
         }
         self.channels.insert(channel.id, topic);
@@ -311,7 +314,7 @@ impl<'a> Reading<'a> {
             if !self.channels.values().any(|known| *known == topic) {
                 return Err(self.missing(
                     format!("topic {topic}"),
-                    "a pose track has /tf, /xr/frame, /xr/input/left and /xr/input/right",
+                    "a pose track has /tf, /xr/frame, /xr/input/left and /xr/input/right from its first step on",
                 ));
             }
         }
@@ -320,6 +323,9 @@ impl<'a> Reading<'a> {
 
     fn finish(mut self, recovered: bool) -> Result<Track, TrackError> {
         self.end_frame()?;
+        if recovered && self.track.frames.is_empty() {
+            return Err(self.damaged("it is empty, or broke off before its first frame"));
+        }
         self.topics()?;
         let Some(mut metadata) = self.metadata.take() else {
             return Err(self.missing(

@@ -222,6 +222,6 @@ mod tests {
         );
         assert!(beyond(&|it| it.points = 5).ends_with("10 points in the recording, 5 found"));
         assert!(beyond(&|it| it.met = false).ends_with("done in the recording, missed found"));
-        assert!(agreement(&[]).beyond[0].contains("begun 1 times in the recording, 0 times found"));
+        assert!(agreement(&[]).beyond[0].contains("begun 1 time in the recording, 0 times found"));
     }
 }

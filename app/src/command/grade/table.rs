@@ -246,7 +246,8 @@ pub fn text(class: &Class) -> String {
 /// # Errors
 /// [`Failure::Other`] where there is no memory for it.
 pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
+    // Excel reads a table without a byte order mark in the system's code page.
+    let mut bytes = "\u{feff}".as_bytes().to_vec();
     let mut writer = csv::WriterBuilder::new()
         .terminator(csv::Terminator::CRLF)
         .from_writer(&mut bytes);

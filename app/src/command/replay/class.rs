@@ -1,7 +1,7 @@
 //! What a class has beside a replay: the console that shows it, and the class's file that keeps it.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use vitriol_lesson::{Attempt, Rubric};
 use vitriol_record::{Session, Timestamp};
@@ -113,7 +113,28 @@ fn session(name: &str, track: &Track) -> Session {
         return Session::now();
     };
     let written = Path::new(name).metadata().and_then(|it| it.modified()).ok();
+    // A copy's clock may be ahead, and no statement may be of the future.
+    let written = written.map(|at| at.min(SystemTime::now()));
     let begun = written.and_then(|at| at.checked_sub(Duration::from_secs_f64(track.duration())));
     let begun = begun.and_then(|at| Timestamp::try_from(at).ok());
     Session::of_recording(&content, begun.unwrap_or_else(Timestamp::now))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_run::track::load;
+
+    /// A Learning Record Store may refuse statements of the future.
+    #[test]
+    fn a_recording_of_a_fast_clock_is_not_of_the_future() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("k.mcap");
+        let file = std::fs::File::create(&path).unwrap();
+        let ahead = SystemTime::now() + Duration::from_secs(3 * 86_400);
+        file.set_modified(ahead).unwrap();
+        let sitting = session(path.to_str().unwrap(), &load("two-flasks").unwrap());
+        assert!(sitting.begun <= Timestamp::now());
+    }
 }

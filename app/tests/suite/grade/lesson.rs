@@ -159,6 +159,7 @@ fn a_class_is_graded_by_its_lesson() {
     );
 
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
+    let table = table.trim_start_matches('\u{feff}');
     let row = |start: &str| table.lines().find(|it| it.starts_with(start)).unwrap();
     let columns = "lesson [points],lesson of,step dress,step lift,step pour,step put-down,step stir,step measure,\
         step concentration,step wipe,rule order,rule cool,rule inside,rule clean,verified,note";

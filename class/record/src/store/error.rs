@@ -54,7 +54,7 @@ pub enum StoreError {
     },
     /// The identifier belongs to another attempt.
     #[error(
-        "{path}: attempt {id} is kept already, and is of another student, scene or time; two attempts have one identifier"
+        "{path}: attempt {id} of this recording is kept already, for another student or scene; give that student's pseudonym, or name another class's file"
     )]
     Taken {
         /// The file.

@@ -243,6 +243,16 @@ fn a_file_that_is_too_long_is_not_read() {
     assert!(message.contains("longer than"), "{message}");
 }
 
+/// What a recorder leaves that stopped before its first chunk was whole.
+#[test]
+fn a_file_that_breaks_off_at_its_beginning_is_told_so() {
+    let whole = super::bytes(&super::track(10));
+    for length in [0, 5, 8, 120] {
+        let cut = Track::parse(&whole[..length], Path::new("bad.mcap")).unwrap_err();
+        assert!(cut.to_string().contains("broke off"), "{length}: {cut}");
+    }
+}
+
 #[test]
 fn missing_steps_are_found() {
     let mut track = super::track(10);
@@ -268,7 +278,7 @@ fn a_record_longer_than_its_chunk_is_refused() {
     let bytes = std::fs::read(folder.join("chunk-shorter-than-its-record")).unwrap();
     // As a recorder that stopped hard left it, it has no frame in a whole chunk; as a file with an end it is damaged.
     let cut = Track::parse(&bytes, Path::new("bad.mcap")).unwrap_err();
-    assert!(cut.to_string().contains("no topic"), "{cut}");
+    assert!(cut.to_string().contains("broke off"), "{cut}");
     let ended = [&bytes[..], mcap::MAGIC].concat();
     let damaged = Track::parse(&ended, Path::new("bad.mcap")).unwrap_err();
     assert!(

@@ -260,8 +260,17 @@ fn topics_and_schemas() {
             raw.schema = "foxglove.PoseInFrame".into();
         }
         let message = read(&messages, true).unwrap_err();
-        assert_says(&message, &[topic, "foxglove.PoseInFrame", "it must hold"]);
+        let encoded = "(schema in protobuf, messages in protobuf)";
+        assert_says(
+            &message,
+            &[topic, "foxglove.PoseInFrame", "it must hold", encoded],
+        );
     }
+    // The container permits topics one after another.
+    let mut by_topic = good();
+    by_topic.sort_by_key(|raw| (raw.sequence > 0, raw.topic.clone()));
+    let message = read(&by_topic, true).unwrap_err();
+    assert_says(&message, &["missing in this step", "lies apart", "sort"]);
     let message = read(&good(), false).unwrap_err();
     assert_says(&message, &["metadata record `vitriol`"]);
     let message = read(&[], true).unwrap_err();
