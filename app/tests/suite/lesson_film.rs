@@ -77,11 +77,14 @@ fn a_lesson_has_a_film_with_subtitles() {
     ];
     assert_eq!(vitriol(here, &nowhere).status.code(), Some(2));
     // No built-in track is made for its scene.
-    let none = vitriol(here, &["lesson", "wrong-order", "--film", "other/none.mp4"]);
+    let none = vitriol(
+        here,
+        &["lesson", "wrong-order-hot", "--film", "other/none.mp4"],
+    );
     assert_eq!(none.status.code(), Some(2));
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
-        said.contains("--track") && said.contains("water-into-acid"),
+        said.contains("--track") && said.contains("hot-acid"),
         "{said}"
     );
     assert!(!here.join("other").exists());
