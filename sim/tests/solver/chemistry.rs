@@ -25,3 +25,4 @@ pub mod setup;
 pub mod spray;
 mod steam;
 mod swarms;
+mod work;

@@ -65,7 +65,7 @@ pub fn air(p: &Parameters, radius: f64) -> f32 {
 }
 
 /// Holds a bubble of air of that radius (m) at rest at `centre`, in place 0.
-fn hold(solver: &Solver, centre: DVec3, radius: f64) {
+pub fn hold(solver: &Solver, centre: DVec3, radius: f64) {
     let mut state = solver.snapshot().unwrap();
     let p = solver.parameters();
     if state.bubbles()[0].air == 0.0 {
