@@ -1,8 +1,8 @@
 //! What can go wrong with a film.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use muxide::api::MuxerError;
+use shiguredo_mp4::mux::MuxError;
 use vitriol_sound::OpusError;
 
 use crate::h264::MOST_BITS;
@@ -47,20 +47,12 @@ pub enum FilmError {
         /// The frame, from 0.
         number: u32,
     },
-    /// The film would become longer than its file can be.
-    #[error(
-        "after {seconds:.0} s the film has more than the 3.5 GiB that its file holds; run fewer --seconds, or give --no-video"
-    )]
-    TooLong {
-        /// Time of the first picture that is too many, s.
-        seconds: f64,
-    },
     /// The H.264 encoder refused.
     #[error("the H.264 encoder failed")]
     Encode(#[from] openh264::Error),
     /// The MP4 writer refused.
     #[error("the film could not be put into its MP4 file")]
-    Mux(#[from] MuxerError),
+    Mux(#[from] MuxError),
     /// Sound could not be encoded.
     #[error("the film's sound could not be encoded")]
     Sound(#[from] OpusError),
@@ -81,4 +73,10 @@ pub enum FilmError {
     /// The encoder thread ended early without saying why.
     #[error("the film's encoder stopped unexpectedly; run again with --no-video to do without it")]
     Stopped,
+}
+
+/// Makes an error of the file system one of the film at `path`.
+pub(crate) fn unwritten(path: &Path) -> impl FnOnce(std::io::Error) -> FilmError {
+    let path = path.to_owned();
+    move |source| FilmError::Write { path, source }
 }

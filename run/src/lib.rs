@@ -32,6 +32,7 @@ mod liquid;
 mod looks;
 mod marks;
 mod moment;
+mod mp4;
 mod observer;
 pub mod output;
 pub mod page;

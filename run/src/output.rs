@@ -1,5 +1,6 @@
 //! Where results go: nothing half-written, nothing overwritten.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -98,6 +99,9 @@ pub fn make_folder(path: &Path) -> Result<(), Failure> {
     Ok(fs::create_dir_all(path).map_err(|source| OutputError::write(path, source))?)
 }
 
+/// What the name of a file begins and ends with that nobody can read before it is whole.
+const HIDDEN: [&str; 2] = [".vitriol-", ".part"];
+
 /// A file that is written under a temporary name in its own folder and gets its
 /// name when it is whole. Dropped before that, it is removed.
 #[derive(Debug)]
@@ -113,24 +117,44 @@ impl Staged {
     /// # Errors
     /// `AlreadyExists` where `path` exists, else an error of the system.
     pub fn create(path: &Path) -> io::Result<Self> {
+        Self::begin(path, HIDDEN)
+    }
+
+    /// Begins one that can be read before it is whole: its name until then is that of `path` with `unfinished` in it, so that it is found
+    /// where the program is killed.
+    ///
+    /// # Errors
+    /// As for [`Staged::create`].
+    pub fn unfinished(path: &Path) -> io::Result<Self> {
+        let mut before = path.file_stem().unwrap_or_default().to_owned();
+        before.push("-unfinished-");
+        let mut after = OsString::from(".");
+        after.push(path.extension().unwrap_or_default());
+        Self::begin(path, [&before, &after])
+    }
+
+    fn begin<S: AsRef<OsStr>>(path: &Path, name: [S; 2]) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
         Ok(Self {
-            file: Self::temporary(path)?,
+            file: Self::temporary(path, name)?,
             path: path.to_owned(),
         })
     }
 
-    /// An empty file of another name, beside `path`.
-    fn temporary(path: &Path) -> io::Result<NamedTempFile<File>> {
+    /// An empty file of another name, which begins and ends like that, beside `path`.
+    fn temporary<S: AsRef<OsStr>>(
+        path: &Path,
+        [before, after]: [S; 2],
+    ) -> io::Result<NamedTempFile<File>> {
         let folder = match path.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
         tempfile::Builder::new()
-            .prefix(".vitriol-")
-            .suffix(".part")
+            .prefix(&before)
+            .suffix(&after)
             // Not tempfile's own way of opening, which lets nobody but the
             // owner read the file that it becomes.
             .make_in(folder, |path| File::create_new(path))
@@ -244,7 +268,7 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// [`Failure::Other`] where the system refuses.
 pub fn write_over(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let write = || {
-        let file = Staged::temporary(path)?;
+        let file = Staged::temporary(path, HIDDEN)?;
         file.as_file().write_all(bytes)?;
         file.as_file().sync_all()?;
         file.persist(path)?;

@@ -1,11 +1,9 @@
-//! A film's sound: samples to Opus packets, which wait until the muxer takes them.
+//! A film's sound: samples to Opus packets, which wait until the next picture.
 
-use std::io::Write;
-
-use muxide::api::Muxer;
 use vitriol_sound::{OPUS_PACKET, Opus, OpusError, RATE};
 
 use crate::film_error::FilmError;
+use crate::mp4::Mp4;
 
 /// Packets with their times (s).
 type Packets = Vec<(f64, Vec<u8>)>;
@@ -36,30 +34,21 @@ impl Soundtrack {
         Ok(self.opus.push(samples, keep(&mut self.packets))?)
     }
 
-    /// Gives what there is to the muxer, and returns its bytes.
-    pub(crate) fn give<W: Write>(&mut self, muxer: &mut Muxer<W>) -> Result<u64, FilmError> {
-        let mut bytes = 0;
-        for (seconds, packet) in self.packets.drain(..) {
-            muxer.write_audio(seconds, &packet)?;
-            bytes += packet.len() as u64;
+    /// Gives what there is to the film's file.
+    pub(crate) fn give(&mut self, film: &mut Mp4) {
+        for (_, packet) in self.packets.drain(..) {
+            film.add_packet(&packet);
         }
-        Ok(bytes)
     }
 
     /// Gives the rest, as far as it is within a film of so many `seconds`: a packet that goes on behind its last picture would make
     /// the film longer than what it shows.
-    pub(crate) fn finish<W: Write>(
-        mut self,
-        muxer: &mut Muxer<W>,
-        seconds: f64,
-    ) -> Result<(), FilmError> {
+    pub(crate) fn finish(self, film: &mut Mp4, seconds: f64) -> Result<(), FilmError> {
+        let Self { opus, mut packets } = self;
+        opus.finish(keep(&mut packets))?;
         let within = |begin: f64| begin + OPUS_PACKET as f64 / f64::from(RATE) <= seconds + 1e-6;
-        self.packets.retain(|(begin, _)| within(*begin));
-        self.give(muxer)?;
-        let mut packets = Packets::new();
-        self.opus.finish(keep(&mut packets))?;
-        for (begin, packet) in packets.into_iter().filter(|(begin, _)| within(*begin)) {
-            muxer.write_audio(begin, &packet)?;
+        for (_, packet) in packets.iter().filter(|(begin, _)| within(*begin)) {
+            film.add_packet(packet);
         }
         Ok(())
     }

@@ -1,6 +1,5 @@
 //! A track of text: its box in `moov`, and its samples.
 
-use super::boxes::{made, size_of};
 use super::{Subtitles, SubtitlesError};
 
 /// Units of time in a second.
@@ -78,7 +77,7 @@ pub fn trak(
     subtitles: &Subtitles,
     (id, end): (u32, u32),
     size: [u32; 2],
-    offset: u32,
+    offset: u64,
 ) -> Result<Vec<u8>, SubtitlesError> {
     let [wide, high] = size.map(f64::from);
     let text = (HEIGHT * high).round();
@@ -133,7 +132,7 @@ fn table(
     subtitles: &Subtitles,
     end: u32,
     (wide, text, high): (f64, f64, f64),
-    offset: u32,
+    offset: u64,
 ) -> Result<Vec<u8>, SubtitlesError> {
     let samples = in_turn(subtitles, end)?;
     let count = size_of(samples.len())?;
@@ -177,9 +176,24 @@ fn table(
         made(b"stts", &[&durations])?,
         made(b"stsc", &[&words(&[0, 1, 1, count, 1])])?,
         made(b"stsz", &[&sizes])?,
-        made(b"stco", &[&words(&[0, 1, offset])])?,
+        // Behind pictures and sound, which may be more than 4 GiB.
+        made(b"co64", &[&words(&[0, 1]), &offset.to_be_bytes()])?,
     ];
     Ok(boxes.concat())
+}
+
+/// A box of these parts: four bytes of size, four of name, and what is in it (ISO/IEC 14496-12, 4.2).
+fn made(name: &[u8; 4], parts: &[&[u8]]) -> Result<Vec<u8>, SubtitlesError> {
+    let length = 8 + parts.iter().map(|part| part.len()).sum::<usize>();
+    let mut bytes = Vec::with_capacity(length);
+    bytes.extend(size_of(length)?.to_be_bytes());
+    bytes.extend(name);
+    bytes.extend(parts.concat());
+    Ok(bytes)
+}
+
+fn size_of(bytes: usize) -> Result<u32, SubtitlesError> {
+    u32::try_from(bytes).map_err(|_| SubtitlesError::TooLarge)
 }
 
 fn words(values: &[u32]) -> Vec<u8> {

@@ -9,6 +9,8 @@ use openh264::formats::YUVSource;
 use vitriol_run::{Film, FilmError};
 use vitriol_tests::browser;
 
+use crate::mp4;
+
 const WIDTH: u32 = 320;
 const HEIGHT: u32 = 180;
 const FPS: u32 = 30;
@@ -53,25 +55,10 @@ fn make_film(path: &Path) {
     assert_eq!(film.finish().unwrap(), path);
 }
 
-/// The coded pictures of an MP4 whose `mdat` holds nothing else: NAL units with
-/// 4-byte lengths, turned into Annex B.
-fn annex_b(mp4: &[u8]) -> Vec<u8> {
-    let mut rest = mp4;
-    loop {
-        let size = u32::from_be_bytes(rest[..4].try_into().unwrap()) as usize;
-        if &rest[4..8] == b"mdat" {
-            let mut units = &rest[8..size];
-            let mut out = Vec::new();
-            while !units.is_empty() {
-                let length = u32::from_be_bytes(units[..4].try_into().unwrap()) as usize;
-                out.extend([0, 0, 0, 1]);
-                out.extend(&units[4..4 + length]);
-                units = &units[4 + length..];
-            }
-            return out;
-        }
-        rest = &rest[size..];
-    }
+/// The coded pictures of a finished film, as Annex B.
+fn stream(path: &Path) -> Vec<u8> {
+    let film = mp4::tracks(&fs::read(path).unwrap());
+    mp4::annex_b(film[0].samples.iter().map(|(.., bytes)| &bytes[..]))
 }
 
 /// Shows each picture of a stream to `look`, in order.
@@ -100,15 +87,10 @@ fn rgb_of(y: u8, cb: u8, cr: u8) -> [f64; 3] {
     .map(|v| (v * 255.0).clamp(0.0, 255.0))
 }
 
-#[test]
-fn every_frame_decodes_to_its_picture() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("film.mp4");
-    make_film(&path);
-    let stream = annex_b(&fs::read(&path).unwrap());
-
+/// How many pictures of the pattern these are, from its first; each is compared.
+fn patterns(stream: &[u8]) -> u32 {
     let mut frame = 0;
-    decode(&stream, |picture| {
+    decode(stream, |picture| {
         assert_eq!(picture.dimensions(), (WIDTH as usize, HEIGHT as usize));
         let (luma, chroma, _) = picture.strides();
         for column in 0..WIDTH / BLOCK {
@@ -128,7 +110,110 @@ fn every_frame_decodes_to_its_picture() {
         }
         frame += 1;
     });
-    assert_eq!(frame, FRAMES);
+    frame
+}
+
+#[test]
+fn every_frame_decodes_to_its_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    make_film(&path);
+    assert_eq!(patterns(&stream(&path)), FRAMES);
+}
+
+/// Frames of a film of more than two seconds, after which there is a key frame at the latest.
+const LONGER: u32 = 70;
+
+/// A player seeks by the index: each picture has its time, and those are named that can be decoded without another (their units
+/// are of type 5 of H.264, table 7-1).
+#[test]
+fn the_index_has_each_pictures_time_and_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    for frame in 0..LONGER {
+        film.push_rgba(&pattern(frame)).unwrap();
+    }
+    film.finish().unwrap();
+    let film = mp4::tracks(&fs::read(&path).unwrap());
+    assert_eq!(film.len(), 1);
+    let pictures = &film[0];
+    assert_eq!(pictures.handler, "vide");
+    assert_eq!(pictures.samples.len(), LONGER as usize);
+    // To the nearest millisecond.
+    assert_eq!(pictures.length, 2333);
+    let mut keys = Vec::new();
+    for (frame, (from, lasts, bytes)) in (0..).zip(&pictures.samples) {
+        assert_eq!(from * FPS, frame * pictures.units);
+        assert_eq!(lasts * FPS, pictures.units);
+        let stream = mp4::annex_b([&bytes[..]]);
+        if openh264::nal_units(&stream).any(|unit| unit[3] & 31 == 5) {
+            keys.push(frame + 1);
+        }
+    }
+    assert!(keys.starts_with(&[1]) && keys.len() > 1, "{keys:?}");
+    let named = pictures.keys.clone();
+    assert_eq!(named.unwrap_or_else(|| (1..=LONGER).collect()), keys);
+}
+
+/// Memory does not grow with the film, and a program that is killed leaves what it had: the file has it and can be read at any moment,
+/// under a name that says what it is.
+#[test]
+fn an_unfinished_film_is_in_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    for frame in 0..LONGER {
+        film.push_rgba(&pattern(frame)).unwrap();
+    }
+    // At most four frames wait for the encoder and one is in its hands: that of two seconds is behind it.
+    let files: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(files.len(), 1);
+    let beside = files[0].as_ref().unwrap();
+    let name = beside.file_name().into_string().unwrap();
+    assert!(
+        name.starts_with("film-unfinished-") && name.ends_with(".mp4"),
+        "{name}"
+    );
+    // The program is killed.
+    let bytes = fs::read(beside.path()).unwrap();
+    let there = mp4::fragments(&bytes);
+    assert!(there.len() >= 60, "{} frames", there.len());
+    for (frame, sample) in (0..).zip(&there) {
+        assert_eq!((sample.track, sample.from), (1, frame * 1000));
+    }
+    let stream_there = mp4::annex_b(there.iter().map(|sample| &sample.bytes[..]));
+    assert_eq!(patterns(&stream_there) as usize, there.len());
+    // It is not.
+    film.finish().unwrap();
+    assert_eq!(patterns(&stream(&path)), LONGER);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+
+    let killed = folder.path().join("killed.mp4");
+    fs::write(killed, bytes).unwrap();
+    fs::write(
+        folder.path().join("page.html"),
+        r#"<!doctype html><script>
+        const told = (value) => console.log("TOLD " + JSON.stringify(value));
+        const film = document.createElement("video");
+        film.muted = true;
+        film.src = "killed.mp4";
+        film.onerror = () => told({ error: film.error.message });
+        // It goes on behind its first second.
+        film.ontimeupdate = () => {
+          if (film.currentTime < 1) return;
+          film.ontimeupdate = null;
+          told({ width: film.videoWidth, height: film.videoHeight });
+        };
+        film.play();
+        </script>"#,
+    )
+    .unwrap();
+    if let Some(visit) = browser::visit(&folder.path().join("page.html")) {
+        let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
+        assert_eq!(told["width"], WIDTH, "{visit:?}");
+        assert_eq!(told["height"], HEIGHT, "{visit:?}");
+    }
 }
 
 #[test]
@@ -283,7 +368,7 @@ fn what_moves_leaves_nothing_behind() {
     }
     film.finish().unwrap();
     let mut frame = 0;
-    decode(&annex_b(&fs::read(&path).unwrap()), |picture| {
+    decode(&stream(&path), |picture| {
         let centre = middle(frame);
         let stride = picture.strides().0;
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {

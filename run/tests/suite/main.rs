@@ -3,6 +3,7 @@
 
 mod device;
 mod film;
+mod mp4;
 mod recording;
 mod sound;
 mod subtitles;

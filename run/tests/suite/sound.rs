@@ -7,6 +7,8 @@ use std::path::Path;
 use vitriol_run::{Film, FilmError};
 use vitriol_tests::browser;
 
+use crate::mp4;
+
 const SIZE: [u32; 2] = [64, 64];
 const FPS: u32 = 30;
 const FRAMES: u32 = 60;
@@ -95,4 +97,30 @@ fn a_film_without_sound_takes_none() {
     let folder = tempfile::tempdir().unwrap();
     let mut film = Film::create(&folder.path().join("film.mp4"), SIZE[0], SIZE[1], FPS).unwrap();
     assert!(matches!(film.push_sound(&[[0.0; 2]]), Err(FilmError::Mute)));
+}
+
+/// Sound that comes behind all its pictures, more than two seconds late, is as long and at the same times as any: a track whose first
+/// packet were late would be played early.
+#[test]
+fn sound_that_comes_late_keeps_its_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let mut film = Film::with_sound(&path, SIZE, FPS).unwrap();
+    let picture = vec![128; (SIZE[0] * SIZE[1] * 4) as usize];
+    let frames = FRAMES + 10;
+    for _ in 0..frames {
+        film.push_rgba(&picture).unwrap();
+    }
+    let samples: Vec<_> = (0..frames * SAMPLES).map(sample).collect();
+    film.push_sound(&samples).unwrap();
+    film.finish().unwrap();
+    let film = mp4::tracks(&fs::read(&path).unwrap());
+    assert_eq!(film.len(), 2);
+    let sound = &film[1];
+    assert_eq!((sound.handler.as_str(), sound.units), ("soun", 48_000));
+    // Whole packets of 20 ms in 70 frames.
+    assert_eq!((sound.samples.len(), sound.length), (116, 2320));
+    for (packet, (from, lasts, _)) in (0..).zip(&sound.samples) {
+        assert_eq!((*from, *lasts), (packet * 960, 960));
+    }
 }

@@ -1,112 +1,25 @@
-//! A film's subtitles, read by a reader of ISO/IEC 14496-12 and 3GPP TS 26.245 of its own.
+//! A film's subtitles, read by a reader of 3GPP TS 26.245 of its own.
 
 use std::fs;
 use std::path::Path;
 
 use vitriol_run::{Cue, Film, FilmError, Subtitles, SubtitlesError};
 
+use crate::mp4::{Track, body, number, tracks};
+
 const FPS: u32 = 10;
 /// 4 s.
 const FRAMES: u32 = 40;
 
-/// A track as the file describes it.
-#[derive(Debug, PartialEq)]
-struct Track {
-    id: u32,
-    enabled: bool,
-    handler: String,
-    language: String,
-    /// Each with when it is shown, in units of the track, and how long.
-    samples: Vec<(u32, u32, Vec<u8>)>,
-    units: u32,
-}
-
-impl Track {
-    /// Texts, each from when until when, s.
-    fn texts(&self) -> Vec<(f64, f64, String)> {
-        let seconds = |units: u32| f64::from(units) / f64::from(self.units);
-        let each = self.samples.iter().map(|(from, lasts, bytes)| {
-            let length = usize::from(u16::from_be_bytes(bytes[..2].try_into().unwrap()));
-            let text = std::str::from_utf8(&bytes[2..2 + length]).unwrap();
-            (seconds(*from), seconds(from + lasts), text.to_owned())
-        });
-        each.filter(|(.., text)| !text.is_empty()).collect()
-    }
-}
-
-fn number(bytes: &[u8], at: usize) -> u32 {
-    u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
-}
-
-/// The bodies of all boxes of that name, at that place in the tree.
-fn bodies<'a>(bytes: &'a [u8], path: &[&str]) -> Vec<&'a [u8]> {
-    let Some((name, rest)) = path.split_first() else {
-        return vec![bytes];
-    };
-    let (mut at, mut found) = (0, Vec::new());
-    while at < bytes.len() {
-        let size = number(bytes, at) as usize;
-        if &bytes[at + 4..at + 8] == name.as_bytes() {
-            found.extend(bodies(&bytes[at + 8..at + size], rest));
-        }
-        at += size;
-    }
-    found
-}
-
-fn body<'a>(bytes: &'a [u8], path: &[&str]) -> &'a [u8] {
-    let found = bodies(bytes, path);
-    assert_eq!(found.len(), 1, "{path:?}");
-    found[0]
-}
-
-fn tracks(film: &[u8]) -> Vec<Track> {
-    bodies(film, &["moov", "trak"])
-        .into_iter()
-        .map(|track| {
-            let header = body(track, &["tkhd"]);
-            let media = body(track, &["mdia", "mdhd"]);
-            let packed = number(media, 20) >> 16;
-            let letters = [10, 5, 0].map(|shift| (packed >> shift & 31) as u8 + 0x60);
-            let table = |name| body(track, &["mdia", "minf", "stbl", name]);
-            let (sizes, times, chunks, where_) =
-                (table("stsz"), table("stts"), table("stsc"), table("stco"));
-            let lasting = (0..number(times, 4) as usize).flat_map(|run| {
-                let [count, lasts] = [8, 12].map(|at| number(times, at + 8 * run));
-                std::iter::repeat_n(lasts, count as usize)
-            });
-            let runs: Vec<[u32; 2]> = (0..number(chunks, 4) as usize)
-                .map(|run| [8, 12].map(|at| number(chunks, at + 12 * run)))
-                .collect();
-            let mut places = Vec::new();
-            for chunk in 0..number(where_, 4) {
-                let run = runs.iter().rev().find(|[first, _]| *first <= chunk + 1);
-                let mut at = number(where_, 8 + 4 * chunk as usize) as usize;
-                for _ in 0..run.unwrap()[1] {
-                    let size = match number(sizes, 4) {
-                        0 => number(sizes, 12 + 4 * places.len()),
-                        all => all,
-                    };
-                    places.push(at..at + size as usize);
-                    at += size as usize;
-                }
-            }
-            assert_eq!(places.len(), number(sizes, 8) as usize);
-            let mut now = 0;
-            let samples = lasting.zip(places).map(|(lasts, place)| {
-                now += lasts;
-                (now - lasts, lasts, film[place].to_vec())
-            });
-            Track {
-                id: number(header, 12),
-                enabled: number(header, 0) & 1 == 1,
-                handler: String::from_utf8(body(track, &["mdia", "hdlr"])[8..12].into()).unwrap(),
-                language: String::from_utf8(letters.into()).unwrap(),
-                samples: samples.collect(),
-                units: number(media, 12),
-            }
-        })
-        .collect()
+/// Texts of a track, each from when until when, s.
+fn texts(track: &Track) -> Vec<(f64, f64, String)> {
+    let seconds = |units: u32| f64::from(units) / f64::from(track.units);
+    let each = track.samples.iter().map(|(from, lasts, bytes)| {
+        let length = usize::from(u16::from_be_bytes(bytes[..2].try_into().unwrap()));
+        let text = std::str::from_utf8(&bytes[2..2 + length]).unwrap();
+        (seconds(*from), seconds(from + lasts), text.to_owned())
+    });
+    each.filter(|(.., text)| !text.is_empty()).collect()
 }
 
 /// A film of noise, with sound.
@@ -158,14 +71,15 @@ fn each_language_has_a_track_and_each_text_its_time() {
     film(&path).finish_with(&in_four_languages()).unwrap();
     let film = tracks(&fs::read(&path).unwrap());
 
-    let texts = &film[2..];
-    assert_eq!(texts.len(), TEXTS.len());
-    for (track, (language, first, second)) in texts.iter().zip(TEXTS) {
+    let added = &film[2..];
+    assert_eq!(added.len(), TEXTS.len());
+    for (track, (language, first, second)) in added.iter().zip(TEXTS) {
         assert_eq!(track.language.as_bytes(), language);
         assert_eq!(track.handler, "sbtl");
         assert_eq!(track.enabled, language == b"deu");
         let said = [(0.5, 1.25, first.into()), (2.0, 4.0, second.into())];
-        assert_eq!(track.texts(), said);
+        assert_eq!(texts(track), said);
+        assert_eq!(track.length, 4000);
     }
     let ids: Vec<u32> = film.iter().map(|track| track.id).collect();
     assert_eq!(ids, [1, 2, 3, 4, 5, 6]);
@@ -174,7 +88,7 @@ fn each_language_has_a_track_and_each_text_its_time() {
     assert_eq!(number(header, header.len() - 4), 7);
 }
 
-/// Pictures and sound are found where they were moved to, and no file is left beside the film.
+/// Pictures and sound are the same with subtitles, and no file is left beside the film.
 #[test]
 fn pictures_and_sound_stay_what_they_are() {
     let folder = tempfile::tempdir().unwrap();
