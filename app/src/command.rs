@@ -35,6 +35,11 @@ use crate::cli::{Cli, Command};
 /// # Errors
 /// What the subcommand fails with; nothing is on standard output then, but for several tracks what of them went well.
 pub fn run(cli: &Cli) -> Result<(), Failure> {
+    // Both ask the loader, and say themselves what is wrong. There is no other thread yet.
+    #[cfg(feature = "vr")]
+    if matches!(cli.command, Command::Vr(_) | Command::Doctor) {
+        vitriol_xr::quiet_loader();
+    }
     if simulates(&cli.command) {
         stop_when_asked();
     }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use tracing::level_filters::LevelFilter;
 use vitriol::cli::{Cli, left_out};
-use vitriol_run::{error_line, escaped};
+use vitriol_run::{error_line, escaped, printed};
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -31,19 +31,19 @@ fn main() -> ExitCode {
     }
     match vitriol::command::run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // Not through the log: whoever silences that still has to learn why
-            // it failed.
-            let said = if cli.json {
-                error_line(&failure.to_string(), failure.exit_code())
-            } else {
-                format!("vitriol: {}", escaped(&failure.to_string()))
-            };
-            // A reader that has gone is no second failure.
-            let _ = writeln!(std::io::stderr(), "{said}");
-            ExitCode::from(failure.exit_code())
-        }
+        Err(failure) => failed(&failure.to_string(), failure.exit_code(), cli.json),
     }
+}
+
+/// Prints why the command failed. Not through the log: whoever silences that still has to learn it.
+fn failed(message: &str, code: u8, json: bool) -> ExitCode {
+    let said = match json {
+        true => error_line(message, code),
+        false => format!("vitriol: {}", escaped(message)),
+    };
+    // A reader that has gone is no second failure.
+    let _ = writeln!(std::io::stderr(), "{said}");
+    ExitCode::from(code)
 }
 
 /// Whether standard error is a terminal that shows colours. A console of Windows does after it is asked to.
@@ -63,18 +63,17 @@ fn refused(error: &clap::Error) -> ExitCode {
         .collect();
     let json = given.iter().any(|word| word == "--json");
     if let Some(text) = left_out::answer(error, &given) {
-        let said = match json {
-            true => error_line(&text, 2),
-            false => format!("vitriol: {}", escaped(&text)),
-        };
-        let _ = writeln!(std::io::stderr(), "{said}");
-        return ExitCode::from(2);
+        return failed(&text, 2, json);
     }
     if json && error.use_stderr() {
-        let text = error.to_string();
-        let _ = writeln!(std::io::stderr(), "{}", error_line(text.trim_end(), code));
-    } else {
-        let _ = error.print();
+        return failed(error.to_string().trim_end(), code, json);
     }
-    ExitCode::from(code)
+    let shown = error.print().and_then(|()| std::io::stdout().flush());
+    match printed(shown) {
+        // Help and version; else the command line is the failure.
+        Err(failure) if !error.use_stderr() => {
+            failed(&failure.to_string(), failure.exit_code(), json)
+        }
+        _ => ExitCode::from(code),
+    }
 }

@@ -186,7 +186,8 @@ pub trait Table {
     fn finish(self: Box<Self>) -> Result<(), Cause>;
 }
 
-/// A table as CSV (RFC 4180).
+/// A table as CSV (RFC 4180). It is for programs, and Python's `csv` takes a byte order mark for a part of the first
+/// column's name: it has none.
 pub struct Csv(csv::Writer<BufWriter<File>>);
 
 impl Csv {

@@ -7,6 +7,9 @@ use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
+use vitriol_xr::track::limits;
+
+use crate::units::pair;
 
 /// One of a type's values by its name; each value is given with its help.
 pub fn named<T: Copy + Send + Sync + 'static>(
@@ -95,14 +98,40 @@ pub fn whole<T>(least: u64) -> impl TypedValueParser<Value = T>
 where
     T: TryFrom<u64> + Clone + Send + Sync + 'static,
 {
+    between::<T>(least, u64::MAX >> (64 - 8 * size_of::<T>()))
+}
+
+/// A whole number from `least` to `most`.
+pub fn between<T>(least: u64, most: u64) -> impl TypedValueParser<Value = T>
+where
+    T: TryFrom<u64> + Clone + Send + Sync + 'static,
+{
     move |text: &str| -> Result<T, String> {
-        let number = text.parse::<u64>().ok().filter(|number| *number >= least);
+        let number = text.parse::<u64>().ok();
+        let number = number.filter(|number| (least..=most).contains(number));
         number
             .and_then(|number| T::try_from(number).ok())
-            .ok_or_else(|| {
-                let most = u64::MAX >> (64 - 8 * size_of::<T>());
-                format!("give a whole number from {least} to {most}")
-            })
+            .ok_or_else(|| format!("give a whole number from {least} to {most}"))
+    }
+}
+
+/// Most frames that are counted: as many as a track holds.
+pub const MOST_FRAMES: u64 = limits::FRAMES as u64;
+
+/// Most pixels along a side of a picture: the widest image of most devices. A device with a smaller limit names its own.
+pub const MOST_PIXELS: u32 = 16_384;
+
+/// Width and height of a picture, pixels.
+///
+/// # Errors
+/// What is to be given.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = pair(text)?;
+    match sides.iter().max() {
+        Some(side) if *side > MOST_PIXELS => Err(format!(
+            "give at most {MOST_PIXELS} pixels a side, as devices draw, such as 960x540"
+        )),
+        _ => Ok(sides),
     }
 }
 
@@ -157,6 +186,25 @@ mod tests {
         assert_eq!(parsed(&seed, "18446744073709551615"), Ok(u64::MAX));
         let said = parsed(&seed, "-1").err().unwrap_or_default();
         assert!(said.contains("from 0 to 18446744073709551615"), "{said}");
+        let few = between::<u64>(1, 5);
+        assert_eq!([parsed(&few, "1"), parsed(&few, "5")], [Ok(1), Ok(5)]);
+        for wrong in ["0", "6"] {
+            let said = parsed(&few, wrong).err().unwrap_or_default();
+            assert!(said.contains("from 1 to 5"), "{wrong}: {said}");
+        }
+    }
+
+    /// Twice the square of the side fits into 32 bits, in which pixels of two eyes are counted.
+    #[test]
+    fn a_picture_is_no_wider_than_devices_draw() {
+        assert_eq!(size("16384x1"), Ok([MOST_PIXELS, 1]));
+        let pixels = MOST_PIXELS.checked_pow(2);
+        assert_eq!(pixels.and_then(|it| it.checked_mul(2)), Some(1 << 29));
+        for wrong in ["16385x1", "1x16385", "100000x100000", "4294967295x1"] {
+            let said = size(wrong).err().unwrap_or_default();
+            assert!(said.contains("at most 16384 pixels"), "{wrong}: {said}");
+        }
+        assert!(size("0x1").is_err_and(|it| it.contains("above 0")));
     }
 
     #[test]

@@ -36,10 +36,16 @@ pub fn emit<T: Serialize>(
         out.push('\n');
     }
     let mut stdout = io::stdout().lock();
-    match stdout
-        .write_all(out.as_bytes())
-        .and_then(|()| stdout.flush())
-    {
+    let written = stdout.write_all(out.as_bytes());
+    printed(written.and_then(|()| stdout.flush()))
+}
+
+/// What came of writing to standard output.
+///
+/// # Errors
+/// As for [`emit`].
+pub fn printed(written: io::Result<()>) -> Result<(), Failure> {
+    match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(unwritten(Path::new("standard output"))(error))
         }

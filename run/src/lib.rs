@@ -61,7 +61,7 @@ pub use animated::{AnimatedPicture, halved};
 pub use boiling::boiling;
 pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, particle_colours, tripod};
 pub use clock::{SimulatedTime, Span};
-pub use console::{Format, emit, error_line, escaped, in_a_line};
+pub use console::{Format, emit, error_line, escaped, in_a_line, printed};
 pub use cutting::{Cut, Cutting, FilmFrame};
 pub use device::DeviceStatement;
 pub use experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken, Worth};

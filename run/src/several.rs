@@ -33,6 +33,8 @@ pub fn at_a_time<T: Sync, R: Send>(
         taken.collect()
     };
     let mut done: Vec<_> = thread::scope(|scope| {
+        // More would find no item.
+        let jobs = jobs.min(items.len());
         let threads: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(on_thread)).collect();
         let done = threads.into_iter().map(thread::ScopedJoinHandle::join);
         done.flat_map(|done| done.unwrap_or_else(|panic| resume_unwind(panic)))
@@ -40,4 +42,18 @@ pub fn at_a_time<T: Sync, R: Send>(
     });
     done.sort_by_key(|(index, _)| *index);
     done.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// A thread for each of the jobs that are asked for would be more than a machine has.
+    #[test]
+    fn no_more_threads_than_items() {
+        let doubled = |items: &[u32]| at_a_time(usize::MAX, items, |item| Ok(2 * item)).unwrap();
+        assert_eq!(doubled(&[1, 2, 3]), [2, 4, 6]);
+        assert!(doubled(&[]).is_empty());
+    }
 }

@@ -245,10 +245,15 @@ impl Scene {
             raw.physical.as_ref(),
         )?;
         if let Some(table) = &raw.table {
-            file::check_table(table)?;
+            table.check()?;
         }
-        settings::finite("floor.height", &[raw.floor.height])?;
-        settings::finite("origin", &raw.origin)?;
+        let height = raw.floor.height;
+        let must = "within 10 km of the origin (metres)";
+        fields::require("floor.height", height, height.abs() <= tool::FARTHEST, must)?;
+        for value in raw.origin {
+            let must = "a finite number, up to 1000000000 either way (metres)";
+            fields::require("origin", value, value.abs() <= MOST_ORIGIN, must)?;
+        }
         for (field, count, most) in [
             ("flask", raw.flask.len(), MOST_FLASKS),
             ("liquid", raw.liquid.len(), MOST_LIQUIDS),
@@ -377,6 +382,10 @@ impl Scene {
         Ok(())
     }
 }
+
+/// Farthest that a scene's origin may be off along an axis, m. Our choice: single precision, in which stages are drawn, holds its square by
+/// far.
+const MOST_ORIGIN: f64 = 1e9;
 
 /// Flasks of a scene, as many as a pose track holds: each two are compared.
 const MOST_FLASKS: usize = 64;

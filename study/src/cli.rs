@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
-use vitriol_run::arguments::{file_of, filter, positive, preset, whole};
-use vitriol_run::units::pair;
+use vitriol_run::arguments::{
+    MOST_FRAMES, between, file_of, filter, positive, preset, size, whole,
+};
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 /// The subcommands.
@@ -53,7 +54,7 @@ pub struct BenchArgs {
     #[arg(long, value_parser = filter(), value_name = "FILTER", requires = "render")]
     pub filter: Option<PictureFilter>,
     /// With --render: one picture of that width and height alone, as on a screen
-    #[arg(long, value_name = "WxH", value_parser = pair, allow_hyphen_values = true, requires = "render")]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, requires = "render")]
     pub size: Option<[u32; 2]>,
     /// Another program, in turn with ours: as many particles, substeps and iterations. One in Python ends in .py; study/peers has some
     #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["render", "features"])]
@@ -62,13 +63,13 @@ pub struct BenchArgs {
     #[arg(long, value_name = "FILE.svg", value_parser = file_of("svg"), conflicts_with_all = ["scene", "paper", "features", "render"])]
     pub scaling: Option<PathBuf>,
     /// With --scaling: most particles of a block
-    #[arg(long, value_name = "N", default_value_t = 4_000_000, requires = "scaling", value_parser = whole::<u64>(1000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 4_000_000, requires = "scaling", value_parser = between::<u64>(1000, 50_000_000), allow_negative_numbers = true)]
     pub most: u64,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,
     /// Frames to measure, after as many as it takes to warm up
-    #[arg(long, default_value_t = 100, value_parser = whole::<u32>(1), allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 100, value_parser = between::<u32>(1, MOST_FRAMES), allow_negative_numbers = true)]
     pub frames: u32,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
@@ -240,7 +241,7 @@ pub struct ExtremesArgs {
     #[arg(long, default_value_t = 1, value_parser = whole::<u64>(0), allow_negative_numbers = true)]
     pub seed: u64,
     /// One case only, by its number
-    #[arg(long, value_name = "CASE", value_parser = whole::<usize>(0), allow_negative_numbers = true)]
+    #[arg(long, value_name = "CASE", value_parser = between::<usize>(0, MOST_CASES as u64 - 1), allow_negative_numbers = true)]
     pub only: Option<usize>,
     /// Cases at a time
     #[arg(long, default_value_t = 4, value_parser = whole::<u32>(1), allow_negative_numbers = true)]
@@ -254,6 +255,9 @@ pub struct ExtremesArgs {
     pub device: Option<String>,
 }
 
+/// Most cases: those before the wanted ones are drawn too. Our choice: a hundred times as many as were ever run.
+const MOST_CASES: usize = 1_000_000;
+
 /// Cases from one number on and up to another one, such as `100..200`; or so many from the first on.
 ///
 /// # Errors
@@ -264,10 +268,10 @@ fn cases(text: &str) -> Result<Range<usize>, String> {
         None => text.parse().ok().map(|count| (0, count)),
     };
     match range {
-        Some((from, to)) if from <= to => Ok(from..to),
-        _ => {
-            Err("give a number of cases, such as 2000, or a range of them, such as 100..200".into())
-        }
+        Some((from, to)) if from <= to && to <= MOST_CASES => Ok(from..to),
+        _ => Err(format!(
+            "give a number of cases, such as 2000, or a range of them, such as 100..200, up to {MOST_CASES}"
+        )),
     }
 }
 
@@ -280,7 +284,18 @@ mod tests {
         assert_eq!(cases("2000"), Ok(0..2000));
         assert_eq!(cases("100..200"), Ok(100..200));
         assert_eq!(cases("3..3"), Ok(3..3));
-        for wrong in ["", "-1", "2..1", "..", "1..", "a..b", "1...2"] {
+        assert_eq!(cases("1000000"), Ok(0..MOST_CASES));
+        for wrong in [
+            "",
+            "-1",
+            "2..1",
+            "..",
+            "1..",
+            "a..b",
+            "1...2",
+            "1000001",
+            "5..1000001",
+        ] {
             assert!(cases(wrong).is_err(), "{wrong}");
         }
     }

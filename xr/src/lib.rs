@@ -23,6 +23,8 @@ mod session;
 mod source;
 pub mod track;
 
+#[cfg(feature = "openxr")]
+pub use entry::quiet_loader;
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
 pub use headset::{
     Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Joints, Pause, Shown, Targets, Turn,

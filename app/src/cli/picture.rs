@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glam::Vec3;
-use vitriol_run::arguments::{file_of, filter, positive, preset};
-use vitriol_run::units::pair;
+use vitriol_run::arguments::{file_of, filter, positive, preset, size};
 use vitriol_run::{Colour, HEAD_FIELD, Look};
 use vitriol_sim::scene::{PictureFilter, Preset};
 
@@ -38,7 +37,7 @@ pub struct PictureArgs {
     #[arg(long, value_name = "DIR")]
     pub passes: Option<PathBuf>,
     /// Width and height of a view, pixels
-    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = size, allow_hyphen_values = true)]
     pub size: [u32; 2],
     /// Both eyes, side by side
     #[arg(long)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use vitriol_lesson::{Language, Mode};
-use vitriol_run::arguments::{file_of, positive, preset, whole};
+use vitriol_run::arguments::{MOST_FRAMES, between, file_of, positive, preset, size, whole};
 use vitriol_run::units::pair;
 use vitriol_sim::scene::Preset;
 
@@ -87,20 +87,20 @@ pub struct VrArgs {
     #[arg(long)]
     pub no_hints: bool,
     /// Measure that many frames, after some to warm up, and end
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(1), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = between::<u64>(1, MOST_FRAMES), allow_negative_numbers = true)]
     pub frames: Option<u64>,
     /// In place of a headset images and a clock, worn by who moves as in this
     /// track (by name or file), over and over: for measurements
     #[arg(long, value_name = "TRACK")]
     pub stand_in: Option<String>,
     /// Width and height of an eye's picture of the stand-in, pixels
-    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = pair, allow_hyphen_values = true, requires = "stand_in")]
+    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = size, allow_hyphen_values = true, requires = "stand_in")]
     pub size: [u32; 2],
     /// Frames a second of the stand-in
     #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, allow_negative_numbers = true, requires = "stand_in")]
     pub rate: f64,
     /// So many pages that look at the console meanwhile, of which one sends messages: for measurements
-    #[arg(long, value_name = "N", value_parser = whole::<usize>(1), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = between::<usize>(1, 256), allow_negative_numbers = true)]
     #[arg(requires_all = ["stand_in", "frames"], conflicts_with_all = ["no_console", "listen", "hub"])]
     pub watchers: Option<usize>,
     /// Device of the stand-in: its number or a part of its name (see `vitriol doctor`)

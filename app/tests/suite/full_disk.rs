@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use vitriol_sim::scene::Scene;
+use vitriol_tests::program::words;
 use vitriol_xr::track::Track;
 
 /// Mounts a disk of 512 kB, fills all of it but 64 kB, records until the program says that it waits, makes room, and
@@ -41,16 +42,41 @@ fn in_own_namespace(folder: &Path) -> Option<Output> {
     Some(run(flags, SCRIPT))
 }
 
-/// The system's error says that there is no space, and not for what.
+/// The system's error says that there is no space, and not for what. Help and version, which are printed before there is a command, are no
+/// exception.
 #[test]
 fn standard_output_that_is_full_is_named() {
-    let full = File::options().write(true).open("/dev/full").unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
-    let output = command.arg("scenes").stdout(full).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    for part in ["standard output: could not be written", "No space left"] {
-        assert!(said.contains(part), "{said}");
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "--help",
+        "-h",
+        "--version",
+        "help",
+        "help vr",
+        "replay --help",
+        "scenes --version",
+        "scenes",
+        "track --list",
+        "track two-flasks",
+        "lesson",
+        "lesson dilute",
+        "lesson dilute --toml",
+        "pages --out pages",
+        "doctor",
+    ] {
+        for json in [None, Some("--json")] {
+            let full = File::options().write(true).open("/dev/full").unwrap();
+            let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
+            command.args(json).args(words(line));
+            let command = command.current_dir(folder.path()).stdout(full);
+            let output = command.output().unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{line}: {said}");
+            for part in ["standard output: could not be written", "No space left"] {
+                assert!(said.contains(part), "{line}: {said}");
+            }
+            let _ = fs::remove_dir_all(folder.path().join("pages"));
+        }
     }
 }
 

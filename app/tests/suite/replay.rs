@@ -51,6 +51,7 @@ fn what_was_found_is_kept_under_a_pseudonym() {
             table.lines().count() == 2 && table.contains("water-into-acid"),
             "{table}"
         );
+        assert!(table.starts_with('\u{feff}'), "{table}");
         assert_eq!(class.exists(), attempts > 0);
         let statements = fs::read_to_string(out.join("statements.jsonl"));
         assert_eq!(statements.is_ok(), attempts > 0);

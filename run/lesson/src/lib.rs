@@ -36,6 +36,6 @@ pub use mixing::layered;
 pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Cap, Criterion, Evidence, LeftOut, Score, ScoreLine};
-pub use table::{TableError, incidents_csv, spreadsheet_text};
+pub use table::{SPREADSHEET_MARK, TableError, incidents_csv, spreadsheet_text};
 pub use texts::{Texts, TextsError};
 pub use words::{Sentence, Tone, sentences};

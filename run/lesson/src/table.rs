@@ -28,6 +28,9 @@ const HEADER: [&str; 20] = [
     "z [m]",
 ];
 
+/// Byte order mark, with which each table for a spreadsheet begins: Excel reads one without it in the system's code page.
+pub const SPREADSHEET_MARK: &str = "\u{feff}";
+
 /// The table could not be made.
 #[derive(Debug, thiserror::Error)]
 #[error("the table of incidents could not be made: {0}; is there memory?")]
@@ -38,7 +41,7 @@ pub struct TableError(#[from] csv::Error);
 /// # Errors
 /// [`TableError`] if the CSV writer fails.
 pub fn incidents_csv(attempts: &[Attempt]) -> Result<Vec<u8>, TableError> {
-    let mut bytes = Vec::new();
+    let mut bytes = SPREADSHEET_MARK.as_bytes().to_vec();
     let mut writer = WriterBuilder::new()
         .terminator(Terminator::CRLF)
         .from_writer(&mut bytes);

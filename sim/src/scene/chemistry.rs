@@ -2,7 +2,7 @@
 
 use super::error::Problem;
 use super::feature::Feature;
-use super::fields::{Field, Must, NOT_NEGATIVE};
+use super::fields::{Field, Must};
 use super::settings::SolverSettings;
 use serde::{Deserialize, Serialize};
 
@@ -74,18 +74,59 @@ pub(super) const HOTTEST_LIQUID: f64 = 340.0;
 /// seen, and not so far that all of its liquid would be steam at once.
 pub(super) const MOST_SUPERHEAT: f64 = 40.0;
 
+/// Hottest that a scene without tables of liquids may have, °C: `vitriol extremes` tries as much. Single precision resolves 0.06 K there.
+pub(super) const HOTTEST: f64 = 1e6;
+
+/// Coldest that water with that fraction of acid is still liquid, °C. Clean water freezes of itself at −38 °C (Koop et al., Nature 406,
+/// 2000, p. 611), and acid of 38 %, which freezes last, at −75 °C; between them in proportion. Stronger acid supercools: as that of 38 %.
+pub(super) fn coldest_liquid(acid: f64) -> f64 {
+    -38.0 - 37.0 * (acid / 0.38).min(1.0)
+}
+
 const TEMPERATURE: Must = (
-    |value| value > ABSOLUTE_ZERO,
-    "a temperature above −273.15 (°C)",
+    |value| value > ABSOLUTE_ZERO && value <= HOTTEST,
+    "a temperature above −273.15 and up to 1000000 (°C)",
 );
 /// Records of the World Meteorological Organization: −89.2 °C (Vostok, 1983) and 56.7 °C (Furnace Creek, 1913).
 const AIR: Must = (
     |value| (-90.0..=60.0).contains(&value),
     "from −90 to 60 (°C), as air on Earth is",
 );
-const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
-const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
-const LENGTH: Must = (|value| value > 0.0, "above zero (m)");
+const BOILING_POINT: Must = (
+    |value| value > 0.0 && value <= HOTTEST,
+    "above 0 and up to 1000000 (°C; Eq. 17 divides by it)",
+);
+const DURATION: Must = (
+    |value| value > 0.0 && value <= 3600.0,
+    "above zero and up to 3600 (seconds)",
+);
+/// Lengths by which rates are divided. Below a micrometre liquid is no continuum to a particle, and a bench is not wider than 10 m.
+const LENGTH: Must = (
+    |value| (1e-6..=10.0).contains(&value),
+    "above zero, from 0.000001 to 10 (m)",
+);
+/// Our choice: a thousand times the paper's, of which `vitriol extremes` tries a hundred times.
+const INTENSITY: Must = (|value| (0.0..=1000.0).contains(&value), "from 0 to 1000");
+/// A calorie warms a gram of water by 1 K. Our choice: that of a milligram.
+const HEATING: Must = (
+    |value| (0.0..=1000.0).contains(&value),
+    "from 0 to 1000 (K/cal)",
+);
+/// Our choice: five times what `vitriol extremes` may draw, in worlds that are drawn large.
+const DIFFUSIVITY: Must = (
+    |value| (0.0..=1e6).contains(&value),
+    "from 0 to 1000000 (m²/s)",
+);
+/// Flows have some 0.03. Our choice: ten times what `vitriol extremes` may draw.
+const MIXING: Must = (
+    |value| (0.0..=1e5).contains(&value),
+    "from 0 to 100000 (over Δ²·|S|)",
+);
+/// Boiling water takes up no more (Incropera, Fundamentals of Heat and Mass Transfer, table 1.1).
+const HEAT_TRANSFER: Must = (
+    |value| (0.0..=1e5).contains(&value),
+    "from 0 to 100000 (W/(m²·K)), as much as boiling water takes up",
+);
 const PLACES: Must = (
     |value| (1.0..=65_536.0).contains(&value),
     "from 1 to 65,536",
@@ -97,10 +138,10 @@ impl PaperChemistry {
         [
             ("T_a", Heat, self.T_a, TEMPERATURE),
             ("T_B", Boiling, self.T_B, BOILING_POINT),
-            ("k_v", Boiling, self.k_v, NOT_NEGATIVE),
-            ("k_d", Dilution, self.k_d, NOT_NEGATIVE),
-            ("D_T", Dilution, self.D_T, NOT_NEGATIVE),
-            ("D_c", Dilution, self.D_c, NOT_NEGATIVE),
+            ("k_v", Boiling, self.k_v, INTENSITY),
+            ("k_d", Dilution, self.k_d, HEATING),
+            ("D_T", Dilution, self.D_T, DIFFUSIVITY),
+            ("D_c", Dilution, self.D_c, DIFFUSIVITY),
         ]
     }
 }
@@ -111,7 +152,7 @@ impl PhysicalChemistry {
         let p = self;
         let mut fields = vec![
             ("ambient", Heat, p.ambient, AIR),
-            ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
+            ("mixing", Dilution, p.mixing, MIXING),
             ("eddy_width", Dilution, p.eddy_width, LENGTH),
             (
                 "most_bubbles",
@@ -120,8 +161,8 @@ impl PhysicalChemistry {
                 PLACES,
             ),
             ("lamella", Segregation, p.lamella, LENGTH),
-            ("glass_loss", Losses, p.glass_loss, NOT_NEGATIVE),
-            ("surface_loss", Losses, p.surface_loss, NOT_NEGATIVE),
+            ("glass_loss", Losses, p.glass_loss, HEAT_TRANSFER),
+            ("surface_loss", Losses, p.surface_loss, HEAT_TRANSFER),
         ];
         // Without them bubbles have them by lot and by a law.
         if p.nuclei_spacing.is_some() {

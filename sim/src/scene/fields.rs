@@ -9,7 +9,9 @@ pub(super) type Field = (&'static str, Feature, Option<f64>, Must);
 /// Whether the number is in its range, and the range in words.
 pub(super) type Must = (fn(f64) -> bool, &'static str);
 
-pub(super) const NOT_NEGATIVE: Must = (|value| value >= 0.0, "zero or more");
+/// Angles of a rotation, degrees: a turn either way.
+pub(super) const TURN: RangeInclusive<f64> = -360.0..=360.0;
+pub(super) const TURN_IN_WORDS: &str = "from −360 to 360 (degrees)";
 
 /// Refuses `value` unless it is finite and `ok`.
 pub(super) fn require(field: &str, value: f64, ok: bool, must: &str) -> Result<(), Problem> {

@@ -1,15 +1,16 @@
 //! A scene file as it stands, before flasks and liquids are made of it.
 
 use super::chemistry::{
-    ABSOLUTE_ZERO, HOTTEST_LIQUID, MOST_SUPERHEAT, PaperChemistry, PhysicalChemistry,
+    ABSOLUTE_ZERO, HOTTEST, HOTTEST_LIQUID, MOST_SUPERHEAT, PaperChemistry, PhysicalChemistry,
+    coldest_liquid,
 };
 use super::contents::{Flask, Liquid};
 use super::error::Problem;
 use super::feature::Feature;
-use super::fields::{require, within};
+use super::fields::{TURN, TURN_IN_WORDS, require, within};
 use super::preset::Preset;
 use super::settings::{
-    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite,
+    Floor, HEAVIEST, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop,
 };
 use super::tool::ToolEntry;
 use crate::chemistry::table::SolutionTable;
@@ -115,15 +116,16 @@ impl FlaskEntry {
                 return Err(Problem::new(field("profile"), problem));
             }
         };
-        let must = "above zero (kg/m³)";
-        require(&field("density"), density, density > 0.0, must)?;
+        let must = "from 1 to 25000 (kg/m³): the heaviest metal has 22600";
+        within(&field("density"), density, 1.0..=HEAVIEST, must)?;
         profile
             .check_particle(scale.spacing)
             .map_err(|error| Problem::new(field("points"), error))?;
-        for (name, values) in [("position", self.position), ("rotation", self.rotation)] {
-            for value in values {
-                require(&field(name), value, true, "a finite number")?;
-            }
+        for value in self.position {
+            require(&field("position"), value, true, "a finite number (metres)")?;
+        }
+        for angle in self.rotation {
+            within(&field("rotation"), angle, TURN, TURN_IN_WORDS)?;
         }
         let angle = self
             .contact_angle
@@ -231,7 +233,8 @@ impl LiquidEntry {
         let must = "between 0 and 1 (mass of acid over all)";
         within(&field("acid_fraction"), self.acid_fraction, 0.0..=1.0, must)?;
         let celsius = self.temperature;
-        let (ok, must) = (celsius > ABSOLUTE_ZERO, "above −273.15 (°C)");
+        let ok = celsius > ABSOLUTE_ZERO && celsius <= HOTTEST;
+        let must = "above −273.15 and up to 1000000 (°C)";
         require(&field("temperature"), celsius, ok, must)?;
         if let Some(solutions) = solutions {
             let boils = solutions.at(self.acid_fraction).boiling_point;
@@ -243,6 +246,14 @@ impl LiquidEntry {
                 );
                 return Err(Problem::new(field("temperature"), problem));
             }
+            let least = coldest_liquid(self.acid_fraction).ceil();
+            if celsius < least {
+                let problem = format!(
+                    "{celsius} °C: liquid of this acid fraction is ice, which is not modelled: clean water freezes of itself at \
+                     −38 °C, and acid of 38 %, which freezes last, at −75 °C; take {least} or more"
+                );
+                return Err(Problem::new(field("temperature"), problem));
+            }
         }
         Ok(Liquid {
             flask,
@@ -251,13 +262,4 @@ impl LiquidEntry {
             acid_fraction: self.acid_fraction,
         })
     }
-}
-
-pub(super) fn check_table(table: &TableTop) -> Result<(), Problem> {
-    finite("table.top", &[table.top])?;
-    finite("table.centre", &table.centre)?;
-    for value in table.size {
-        require("table.size", value, value > 0.0, "above zero (metres)")?;
-    }
-    Ok(())
 }

@@ -2,8 +2,26 @@
 
 use super::error::Problem;
 use super::feature::Feature;
-use super::fields::{Field, NOT_NEGATIVE, check_fields, require, within};
+use super::fields::{Field, Must, check_fields, require, within};
 use serde::{Deserialize, Serialize};
+
+/// Heaviest that liquid or glass may be, kg/m³: osmium, the heaviest metal, has 22,600.
+pub(super) const HEAVIEST: f64 = 25_000.0;
+/// Fastest that liquid may be allowed to be, m/s: single precision holds the square of it by far. Our choice.
+const FASTEST: f64 = 1e9;
+/// Widest table, m. Our choice: ten times the widest that `vitriol extremes` has.
+const WIDEST: f64 = 1000.0;
+
+/// Our choice: faster than liquid in any flask.
+const CONFINEMENT: Must = (
+    |value| (0.0..=100.0).contains(&value),
+    "zero or more, up to 100 (m/s)",
+);
+/// Molten metals have the highest surface tensions, up to 2.7 N/m (Keene, International Materials Reviews 38, 1993).
+const TENSION: Must = (
+    |value| (0.0..=3.0).contains(&value),
+    "zero or more, up to 3 (N/m): water has 0.0728, molten metals up to 2.7",
+);
 
 /// Lengths, time and gravity of a scene, on which it depends whether the liquid stands up: PBF's
 /// stiffness at a given number of iterations is set by g·Δt_s²/d.
@@ -137,6 +155,16 @@ pub struct TableTop {
 impl TableTop {
     /// Thickness of the top at real size, metres.
     pub const THICKNESS: f64 = 0.04;
+
+    pub(super) fn check(&self) -> Result<(), Problem> {
+        finite("table.top", &[self.top])?;
+        finite("table.centre", &self.centre)?;
+        for side in self.size {
+            let must = "above zero and up to 1000 (metres)";
+            require("table.size", side, side > 0.0 && side <= WIDEST, must)?;
+        }
+        Ok(())
+    }
 }
 
 /// The floor, a plane without end.
@@ -148,7 +176,7 @@ pub struct Floor {
 }
 
 /// Refuses lengths that are no numbers.
-pub(super) fn finite(field: &str, values: &[f64]) -> Result<(), Problem> {
+fn finite(field: &str, values: &[f64]) -> Result<(), Problem> {
     values
         .iter()
         .try_for_each(|&value| require(field, value, true, "a finite number (metres)"))
@@ -167,13 +195,19 @@ impl Scale {
         require("scale.frame_time", frame, frame >= 1e-5, must)?;
         let range = "at most 0.1 (seconds): flasks would pass through each other and the table";
         require("scale.frame_time", frame, frame <= 0.1, range)?;
-        positive("rest_density", self.rest_density, "kg/m³")?;
-        positive("length_scale", self.length_scale, "real metres per metre")?;
+        let range = "from 1 to 25000 (kg/m³): the heaviest metal has 22600";
+        within(
+            "scale.rest_density",
+            self.rest_density,
+            1.0..=HEAVIEST,
+            range,
+        )?;
+        let range = "from 0.001 to 1000 (real metres per metre)";
+        within("scale.length_scale", self.length_scale, 1e-3..=1e3, range)?;
         let range = "between 1.5 and 3 (h/d): with fewer neighbours a liquid does not rest";
         within("scale.support_ratio", self.support_ratio, 1.5..=3.0, range)?;
-        let gravity = self.gravity;
-        let downwards = "zero or more (m/s², downwards)";
-        require("scale.gravity", gravity, gravity >= 0.0, downwards)?;
+        let downwards = "from 0 to 300 (m/s², downwards): the Sun's surface has 274";
+        within("scale.gravity", self.gravity, 0.0..=300.0, downwards)?;
         let ratio = self.boundary_spacing_ratio;
         let range = "between 0.25 and 2 (over d)";
         within("scale.boundary_spacing_ratio", ratio, 0.25..=2.0, range)
@@ -184,13 +218,8 @@ impl SolverSettings {
     pub(super) fn fields(&self) -> [Field; 2] {
         use Feature::{Tension, Vorticity};
         [
-            ("vorticity", Vorticity, self.vorticity, NOT_NEGATIVE),
-            (
-                "surface_tension",
-                Tension,
-                self.surface_tension,
-                NOT_NEGATIVE,
-            ),
+            ("vorticity", Vorticity, self.vorticity, CONFINEMENT),
+            ("surface_tension", Tension, self.surface_tension, TENSION),
         ]
     }
 
@@ -210,7 +239,9 @@ impl SolverSettings {
         let rate = self.carry_rate;
         require("solver.carry_rate", rate, rate >= 0.0, "zero or more (1/s)")?;
         let v_max = self.v_max;
-        require("solver.v_max", v_max, v_max > 0.0, "above zero (m/s)")?;
+        let fits = v_max > 0.0 && v_max <= FASTEST;
+        let must = "above zero and up to 1000000000 (m/s)";
+        require("solver.v_max", v_max, fits, must)?;
         let share = "between 0 and 1 (a share of relative velocities)";
         within("solver.viscosity", self.viscosity, 0.0..=1.0, share)?;
         if let Some(step) = self.wall_step {

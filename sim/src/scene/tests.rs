@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 mod base;
+mod bounds;
 mod builtin;
 mod refused;
 mod sizes;

@@ -3,15 +3,15 @@
 //! Each is a cylinder to the rigid bodies. Sizes are of real size; a scene that is drawn larger has them larger.
 
 use super::error::Problem;
-use super::fields::require;
+use super::fields::{TURN, TURN_IN_WORDS, require, within};
 use super::settings::{Scale, TableTop};
 use crate::pose::Pose;
 use glam::{DQuat, DVec3, EulerRot, Vec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
-/// How far a tool may be from the scene's origin along an axis, m: single precision resolves a millimetre there.
-const FARTHEST: f64 = 1e4;
+/// How far a tool, and the floor, may be from the scene's origin along an axis, m: single precision resolves a millimetre there.
+pub(super) const FARTHEST: f64 = 1e4;
 
 /// Kind of a tool. A scene has one of each at most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
@@ -128,7 +128,7 @@ impl ToolEntry {
             );
             require(&field("position"), value, fits, must)?;
         }
-        require(&field("yaw"), self.yaw, true, "a finite number (degrees)")?;
+        within(&field("yaw"), self.yaw, TURN, TURN_IN_WORDS)?;
         if self.worn && !self.kind.is_worn() {
             let problem = "can only be worn by goggles and gloves; leave it out";
             return Err(Problem::new(field("worn"), problem));

@@ -50,6 +50,21 @@ pub enum TrackError {
         /// How far the file could be read.
         place: String,
     },
+    /// Other bytes follow the file's end. Without them it may be whole.
+    #[error(
+        "{file}: has {bytes} {noun} after its end, at byte {end}, and may be whole without; copy it again, or cut it there, \
+         such as by `head -c {end}`",
+        file = file.display(),
+        noun = if *bytes == 1 { "byte" } else { "bytes" }
+    )]
+    Tail {
+        /// The file.
+        file: PathBuf,
+        /// How many there are.
+        bytes: usize,
+        /// Length of the file without them.
+        end: usize,
+    },
     /// The file may be intact, and its chunks have a compression that is not read.
     #[error(
         "{file}: its chunks are compressed as {found:?}, and lz4, zstd and uncompressed ones are read; have the program that \

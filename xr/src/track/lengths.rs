@@ -41,6 +41,14 @@ pub(super) fn end_of_whole_chunks(file: &[u8]) -> Option<usize> {
     Some(file.len() - if is_cut_chunk { rest.len() } else { 0 })
 }
 
+/// Where a file that has an end ends: behind its footer and the magic number after that.
+pub(super) fn end(file: &[u8]) -> Option<usize> {
+    let mut records = Records(file.strip_prefix(MAGIC)?);
+    records.find(|(opcode, _)| *opcode == op::FOOTER)?;
+    let behind = records.0.strip_prefix(MAGIC)?;
+    Some(file.len() - behind.len())
+}
+
 /// Whether all records of a chunk end within it, as far as that shows before it is unpacked.
 fn holds_its_records(chunk: &[u8]) -> bool {
     let mut rest = Rest(chunk);

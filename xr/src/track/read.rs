@@ -3,7 +3,8 @@
 //! One pass over the records, with every checksum verified, rather than the summary first and the messages by index: the summary is
 //! written last, so that a recording that crashed has none, and a pass that must work without it works with it too. The magic number at
 //! the file's end distinguishes a crash from damage. Where it is, the file was finished, and any record that is short or fails its
-//! checksum is damage. Where it is not, the recording was cut off, and all whole chunks before the cut count.
+//! checksum is damage. Where it is not, the recording was cut off, and all whole chunks before the cut count; unless it has an end
+//! further ahead, behind which there are other bytes.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -47,6 +48,13 @@ impl Track {
     /// # Errors
     /// As [`open`](Self::open).
     pub fn parse(bytes: &[u8], file: &Path) -> Result<Self, TrackError> {
+        if let Some(end) = lengths::end(bytes).filter(|end| *end < bytes.len()) {
+            return Err(TrackError::Tail {
+                file: file.into(),
+                bytes: bytes.len() - end,
+                end,
+            });
+        }
         let finished = bytes.len() > MAGIC.len() && bytes.ends_with(MAGIC);
         let mut reading = Reading::new(file);
         reading.records(bytes, finished)?;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_lesson::{Criterion, What, spreadsheet_text};
+use vitriol_lesson::{Criterion, SPREADSHEET_MARK, What, spreadsheet_text};
 use vitriol_run::{Blame, Failure, in_a_line};
 
 use super::graded::{Found, Graded};
@@ -246,8 +246,7 @@ pub fn text(class: &Class) -> String {
 /// # Errors
 /// [`Failure::Other`] where there is no memory for it.
 pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
-    // Excel reads a table without a byte order mark in the system's code page.
-    let mut bytes = "\u{feff}".as_bytes().to_vec();
+    let mut bytes = SPREADSHEET_MARK.as_bytes().to_vec();
     let mut writer = csv::WriterBuilder::new()
         .terminator(csv::Terminator::CRLF)
         .from_writer(&mut bytes);

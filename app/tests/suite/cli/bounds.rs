@@ -49,6 +49,39 @@ fn a_negative_number_is_answered_with_its_bound() {
     }
 }
 
+/// Some of these ended in an overflow, others would have filled memory or begun a thread for each.
+#[test]
+fn a_number_that_is_too_large_is_answered_with_its_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    for (line, bound) in [
+        (
+            "picture x -o x.png --at 1 --size 100000x100000",
+            "at most 16384 pixels",
+        ),
+        ("vr --stand-in x --size 16385x1", "at most 16384 pixels"),
+        ("bench --render --size 1x16385", "at most 16384 pixels"),
+        ("vr --frames 18446744073709551615", "from 1 to 1000000"),
+        ("bench --frames 1000001", "from 1 to 1000000"),
+        (
+            "bench --scaling x.svg --most 50000001",
+            "from 1000 to 50000000",
+        ),
+        ("extremes --only 18446744073709551615", "from 0 to 999999"),
+        ("extremes --cases 1000001", "up to 1000000"),
+        ("vr --stand-in x --frames 1 --watchers 257", "from 1 to 256"),
+    ] {
+        refuses(folder.path(), &words(line), 2, &[bound]);
+    }
+    // The widest picture is not refused for its size: here it is the track alone that there is not.
+    let widest = "picture nowhere -o x.png --at 1 --size 16384x16384";
+    refuses(
+        folder.path(),
+        &words(widest),
+        2,
+        &["nowhere: neither a file"],
+    );
+}
+
 /// It was simulated for minutes, with hands that stood still.
 #[test]
 fn a_picture_is_of_a_moment_within_its_track() {

@@ -71,6 +71,8 @@ pub fn each_fault_has_its_own_message() {
         let errors = text(&doctor.stderr);
         assert!(doctor.status.success(), "{errors}");
         assert!(!errors.contains("OpenXR"), "{errors}");
+        let of_loader = |line: &str| line.starts_with("Error [");
+        assert!(!errors.lines().any(of_loader), "{errors}");
         let found: serde_json::Value = serde_json::from_slice(&doctor.stdout).unwrap();
         assert_eq!(found["openxr"]["runtime"], serde_json::Value::Null);
         assert_eq!(found["can_enter_vr"], false);

@@ -14,7 +14,7 @@ fn attempts() -> Vec<Attempt> {
 /// The rows by column, as Python's `csv` reads them; `None` where there is no Python.
 fn read(csv: &[u8]) -> Option<Vec<Value>> {
     let program = "import csv, io, json, sys\n\
-        text = io.TextIOWrapper(sys.stdin.buffer, encoding='utf-8', newline='')\n\
+        text = io.TextIOWrapper(sys.stdin.buffer, encoding='utf-8-sig', newline='')\n\
         print(json.dumps(list(csv.DictReader(text, strict=True))))";
     let python = Command::new("python3")
         .args(["-c", program])
@@ -46,6 +46,8 @@ fn a_spreadsheet_reads_what_happened() {
     };
     attempts[1].scene = "@SUM(1+1)*cmd|' /C calc'!A0".into();
     let csv = incidents_csv(&attempts).unwrap();
+    // By the mark Excel knows its encoding; Python's reader takes it off.
+    assert!(csv.starts_with(b"\xef\xbb\xbfattempt,scene,"));
     let Some(rows) = read(&csv) else { return };
 
     let incidents = attempts.iter().flat_map(|it| &it.incidents);
@@ -96,5 +98,6 @@ fn a_spreadsheet_reads_what_happened() {
 fn without_incidents_there_is_a_header_alone() {
     let csv = String::from_utf8(incidents_csv(&[]).unwrap()).unwrap();
     assert_eq!(csv.lines().count(), 1);
+    assert!(csv.starts_with("\u{feff}attempt,"), "{csv}");
     assert!(csv.ends_with("\r\n"));
 }

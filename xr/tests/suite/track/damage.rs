@@ -76,6 +76,31 @@ fn a_flipped_bit_is_noticed_wherever_it_is() {
     }
 }
 
+/// It was told to be cut off, though it is whole and longer. Two files in one are no track either.
+#[test]
+fn bytes_after_the_end_are_told_from_a_file_that_was_cut() {
+    let whole = super::bytes(&super::track(FRAMES));
+    for (tail, told) in [
+        (&b"x"[..], "has 1 byte after its end".to_owned()),
+        (&b"\r\n"[..], "has 2 bytes after its end".to_owned()),
+        (
+            &whole[..],
+            format!("has {} bytes after its end", whole.len()),
+        ),
+    ] {
+        let error = parse(&[&whole[..], tail].concat()).unwrap_err();
+        assert!(matches!(error, TrackError::Tail { .. }), "{error}");
+        let message = error.to_string();
+        let remedy = format!("head -c {}`", whole.len());
+        for part in ["damaged.mcap: ", &told, &remedy] {
+            assert!(message.contains(part), "{part:?} is not in: {message}");
+        }
+        assert!(!message.contains("broke"), "{message}");
+    }
+    let cut = parse(&whole[..whole.len() - 1]).unwrap();
+    assert!(cut.recovered);
+}
+
 #[test]
 fn a_flipped_bit_in_a_chunk_is_no_crash() {
     // Cut off as by a crash, and damaged besides: recovering would replay a wrong pose.
