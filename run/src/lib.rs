@@ -46,6 +46,7 @@ mod sample;
 pub mod scenery;
 pub mod scenes;
 pub mod several;
+mod sightline;
 mod skin;
 mod soundtrack;
 pub mod stage;

@@ -77,14 +77,15 @@ fn a_lesson_has_a_film_with_subtitles() {
     ];
     assert_eq!(vitriol(here, &nowhere).status.code(), Some(2));
     // No built-in track is made for its scene.
-    let none = vitriol(
-        here,
-        &["lesson", "wrong-order-hot", "--film", "other/none.mp4"],
-    );
+    let own = vitriol(here, &["lesson", "wrong-order-hot", "--toml"]);
+    let own = String::from_utf8(own.stdout).unwrap();
+    let elsewhere = own.replace("scene = \"hot-acid\"", "scene = \"hot-acid-85\"");
+    fs::write(here.join("own.toml"), elsewhere).unwrap();
+    let none = vitriol(here, &["lesson", "own.toml", "--film", "other/none.mp4"]);
     assert_eq!(none.status.code(), Some(2));
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
-        said.contains("--track") && said.contains("hot-acid"),
+        said.contains("--track") && said.contains("hot-acid-85"),
         "{said}"
     );
     assert!(!here.join("other").exists());

@@ -1,6 +1,6 @@
 //! The gravest contact of an attempt with acid or hot liquid: what a report says before anything else.
 
-use crate::skin::{IRRITANT, drops};
+use crate::skin::{DROP_M3, IRRITANT, drops};
 use crate::{Attempt, Incident, Skin, Texts, What};
 
 /// What a contact is in words.
@@ -73,9 +73,14 @@ impl Texts {
         };
         let drops = self.count(drops(*volume_m3));
         let amount = self.amount(*volume_m3, *acid);
+        let amount = if *volume_m3 < DROP_M3 {
+            texts.less.fill(&[("amount", &amount)])
+        } else {
+            texts.drops.fill(&[("drops", &drops), ("amount", &amount)])
+        };
         Some(ContactTexts {
             text: text.fill(&[("liquid", &liquid)]),
-            amount: texts.drops.fill(&[("drops", &drops), ("amount", &amount)]),
+            amount,
         })
     }
 }
@@ -84,7 +89,7 @@ impl Texts {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::Cause;
+    use crate::{Cause, Language};
 
     fn contact(skin: Skin, protected: bool, volume_m3: f64) -> Incident {
         Incident {
@@ -143,9 +148,35 @@ mod tests {
             said(Skin::LeftHand, false),
             [
                 "Acid at 148 °C on your hand.",
-                "Drops of 0.05 mL: 3. In all: 0.12 mL of 68 % acid."
+                "Drops of 0.05 mL, each begun one counted: 3. In all: 0.12 mL of 68 % acid."
             ]
         );
         assert_eq!(said(Skin::Face, true)[0], "Acid at 148 °C on your goggles.");
+    }
+
+    /// A hundredth of a drop is said to be less than one, in each language; a whole one is one.
+    #[test]
+    fn less_than_a_drop_is_not_said_to_be_one() {
+        let said = |volume_m3| {
+            Language::ALL.map(|language| {
+                let texts = Texts::of(language).unwrap();
+                let told = texts.contact(&contact(Skin::LeftHand, false, volume_m3));
+                told.unwrap().amount.replace('\u{a0}', " ")
+            })
+        };
+        assert_eq!(
+            said(0.41e-9),
+            [
+                "Less than a drop of 0.05 mL, which counts as a whole one. In all: 0.0004 mL of 68 % acid.",
+                "Weniger als ein Tropfen von 0,05 mL; er zählt als ganzer. Insgesamt: 0,0004 mL Säure von 68 %.",
+                "Menos de una gota de 0,05 mL, que cuenta como entera. En total: 0,0004 mL de ácido al 68 %.",
+                "不到一滴（每滴0.05毫升），按一滴计。总量：0.0004 mL浓度为68%的硫酸。",
+            ]
+        );
+        let [one, ..] = said(0.05e-6);
+        assert_eq!(
+            one,
+            "Drops of 0.05 mL, each begun one counted: 1. In all: 0.050 mL of 68 % acid."
+        );
     }
 }

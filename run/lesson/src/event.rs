@@ -238,6 +238,11 @@ pub enum Cause {
         /// The flask.
         flask: String,
     },
+    /// Acid and water lay on one another in that flask, and moving it mixed them at once.
+    Swirling {
+        /// The flask.
+        flask: String,
+    },
     /// A burner or hot plate heats that flask.
     Heating {
         /// The flask.

@@ -24,6 +24,7 @@ use vitriol_sim::solver::{Census, Held};
 
 use crate::event::{Content, Contents, Ending, Event};
 use crate::limits::Limits;
+use crate::mixing::layered;
 use broken::GlassFalls;
 use flows::Flows;
 use heat::HeatFinder;
@@ -83,6 +84,8 @@ pub(crate) struct Bench {
     pub lifted: Vec<bool>,
     /// By flask, whether it is heated.
     pub heated: Vec<bool>,
+    /// The flask in which acid and water lie on one another at the start.
+    pub layered: Option<usize>,
     /// By flask, height of the rim over its origin, m of the scene.
     pub rims: Vec<f64>,
     /// The flasks' shapes, m of the scene.
@@ -107,6 +110,8 @@ impl Bench {
             names: flasks.iter().map(|flask| flask.name.clone()).collect(),
             lifted: flasks.iter().map(|flask| !flask.fixed).collect(),
             heated: flasks.iter().map(|flask| flask.heater > 0.0).collect(),
+            layered: layered(scene)
+                .and_then(|name| flasks.iter().position(|flask| flask.name == name)),
             rims: flasks.iter().map(|it| it.profile.rim_height()).collect(),
             profiles: flasks.iter().map(|it| it.profile.clone()).collect(),
             bubbles: scene.models(Feature::Bubbles),

@@ -30,7 +30,7 @@ pub const CORROSIVE: f64 = 0.15;
 pub const IRRITANT: f64 = 0.05;
 
 /// A drop, m³: 20 drops of water from a normal dropper weigh 1 g (European Pharmacopoeia, 2.1.1).
-const DROP_M3: f64 = 0.05e-6;
+pub(crate) const DROP_M3: f64 = 0.05e-6;
 
 /// How many drops a volume (m³) is: each begun one counts, at least one.
 pub(crate) fn drops(volume_m3: f64) -> f64 {

@@ -241,6 +241,7 @@ fn cause_name(cause: &Cause) -> &'static str {
         Cause::LettingGo { .. } => "letting-go",
         Cause::Splashing { .. } => "splashing",
         Cause::Mixing { .. } => "mixing",
+        Cause::Swirling { .. } => "swirling",
         Cause::Heating { .. } => "heating",
         Cause::Unknown => "unknown",
     }

@@ -100,8 +100,8 @@ section!(Join: two);
 section!(Pour: acid_into_water plain beside nothing);
 section!(Wrong: water_into_acid water_into_acid_at poured_too_fast boiled_over hot spilt_bench spilt_floor left_hand right_hand face
     left_glove right_glove goggles dropped broke);
-section!(Contact: acid acid_at water_at hand glove face goggles drops);
-section!(Cause: pouring boiling breaking letting_go splashing mixing heating unknown);
+section!(Contact: acid acid_at water_at hand glove face goggles drops less);
+section!(Cause: pouring boiling breaking letting_go splashing mixing heating unknown swirling);
 section!(Effect: water_into_acid too_fast heat_at_once heat_within corrosive irritant rinse protected wipe);
 section!(End: holds holds_at hottest hottest_outside broken_off);
 section!(Well: slowly cool kept clean skin glass);

@@ -1,14 +1,20 @@
-//! Numbers as people say them: in the units of a laboratory, with two significant digits.
+//! Numbers as people say them: in the units of a laboratory, with two significant digits; volumes below a hundredth of a millilitre have
+//! one.
 
 use crate::texts::{Template, Texts};
 
 /// Below this mass fraction liquid is called water: it would be given as 0 %. Our choice.
 const WATER: f64 = 0.005;
+/// Below this volume, m³, a second digit says nothing: it is a few drops of spray. Our choice.
+const FEW: f64 = 0.01e-6;
 
 impl Texts {
     /// m³ as mL or L.
     pub(crate) fn volume(&self, m3: f64) -> String {
-        if m3 < 1e-3 {
+        if m3 < FEW {
+            let number = self.with_decimal(&rounded(m3 * 1e6, 1));
+            self.unit.millilitres.fill(&[("number", &number)])
+        } else if m3 < 1e-3 {
             self.said(&self.unit.millilitres, m3 * 1e6)
         } else {
             self.said(&self.unit.litres, m3 * 1e3)
@@ -92,7 +98,7 @@ impl Texts {
     }
 
     fn said(&self, unit: &Template, value: f64) -> String {
-        let number = self.with_decimal(&two_digits(value));
+        let number = self.with_decimal(&rounded(value, 2));
         unit.fill(&[("number", &number)])
     }
 
@@ -101,16 +107,17 @@ impl Texts {
     }
 }
 
-/// Two significant digits, without exponent.
-fn two_digits(value: f64) -> String {
+/// So many significant digits, at least one, without exponent.
+fn rounded(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{}", value + 0.0);
     }
+    let places = digits - 1;
     // The exponent after rounding: 9.96 is 10 and not 10.0.
-    let rounded = format!("{value:.1e}");
+    let rounded = format!("{value:.places$e}");
     let exponent: Option<i32> = rounded.split_once('e').and_then(|(_, it)| it.parse().ok());
     let value = rounded.parse().unwrap_or(value);
-    let decimals = (1 - exponent.unwrap_or(0)).max(0) as usize;
+    let decimals = (places as i32 - exponent.unwrap_or(0)).max(0) as usize;
     format!("{value:.decimals$}")
 }
 
@@ -130,6 +137,8 @@ mod tests {
         assert_eq!(plain(texts.volume(1.26e-3)), "1.3 L");
         assert_eq!(plain(texts.volume(0.0)), "0 mL");
         assert_eq!(plain(texts.volume(0.0156e-6)), "0.016 mL");
+        assert_eq!(plain(texts.volume(0.0087e-6)), "0.009 mL");
+        assert_eq!(plain(texts.volume(0.00041e-6)), "0.0004 mL");
         assert_eq!(plain(texts.rate(9.96e-6)), "10 mL/s");
         assert_eq!(plain(texts.duration(3.12)), "3.1 s");
         assert_eq!(plain(texts.duration(300.0)), "5.0 min");

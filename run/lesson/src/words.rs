@@ -107,6 +107,7 @@ impl Cause {
             | Self::LettingGo { flask }
             | Self::Splashing { flask }
             | Self::Mixing { flask }
+            | Self::Swirling { flask }
             | Self::Heating { flask } => Some(flask),
             Self::Unknown => None,
         }
@@ -249,6 +250,7 @@ impl Texts {
             (_, Cause::LettingGo { .. }) => &causes.letting_go,
             (_, Cause::Splashing { .. }) => &causes.splashing,
             (_, Cause::Mixing { .. }) => &causes.mixing,
+            (_, Cause::Swirling { .. }) => &causes.swirling,
             (_, Cause::Heating { .. }) => &causes.heating,
             (_, Cause::Unknown) => &causes.unknown,
         };

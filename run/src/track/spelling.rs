@@ -269,11 +269,19 @@ mod tests {
         }
     }
 
-    /// Without them the lesson would stop at its first question, and no film of it would show the pour.
+    /// Without them the lesson would stop at its first question, and no film of it would show what it is about.
     #[test]
-    fn the_track_of_the_wrong_order_answers_its_lessons_questions() {
-        let lesson = Lesson::builtin("wrong-order").unwrap();
-        let track = crate::track::load("wrong-order").unwrap();
+    fn the_tracks_of_the_wrong_order_answer_their_lessons_questions() {
+        for name in ["wrong-order", "wrong-order-layered", "wrong-order-hot"] {
+            answers(name);
+        }
+    }
+
+    /// The track of this name has the lesson's scene, and gives each answer that is asked for, a right one where there is one.
+    fn answers(name: &str) {
+        let lesson = Lesson::builtin(name).unwrap();
+        let track = crate::track::load(name).unwrap();
+        assert_eq!(track.metadata.scene, lesson.scene);
         let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
         let given: Vec<Action> = switches.filter_map(|it| Action::of(it).unwrap()).collect();
         let asked = lesson.steps.iter().filter_map(|step| match step.condition {

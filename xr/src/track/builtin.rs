@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 12] = [
+pub const NAMES: [&str; 14] = [
     "two-flasks",
     "dilute",
     "shake",
@@ -19,6 +19,8 @@ pub const NAMES: [&str; 12] = [
     "layer-and-swirl",
     "rinse-the-bottle",
     "wrong-order",
+    "wrong-order-hot",
+    "wrong-order-layered",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -36,6 +38,8 @@ pub fn text(name: &str) -> Option<&'static str> {
         "layer-and-swirl" => Some(include_str!("../../tracks/layer-and-swirl.toml")),
         "rinse-the-bottle" => Some(include_str!("../../tracks/rinse-the-bottle.toml")),
         "wrong-order" => Some(include_str!("../../tracks/wrong-order.toml")),
+        "wrong-order-hot" => Some(include_str!("../../tracks/wrong-order-hot.toml")),
+        "wrong-order-layered" => Some(include_str!("../../tracks/wrong-order-layered.toml")),
         _ => None,
     }
 }

@@ -122,9 +122,10 @@ pub fn make(
     })
 }
 
-/// The built-in track that is made for the lesson's scene.
+/// The built-in track that is made for the lesson's scene, first the one that has the lesson's name: another one may answer no question.
 fn usual(lesson: &Lesson) -> Result<String, Failure> {
-    for name in builtin::NAMES {
+    let own = builtin::NAMES.into_iter().filter(|it| *it == lesson.name);
+    for name in own.chain(builtin::NAMES) {
         if load(name).other()?.metadata.scene == lesson.scene {
             return Ok(name.to_owned());
         }
@@ -187,12 +188,17 @@ mod tests {
 
     #[test]
     fn a_film_shows_the_track_of_the_lessons_scene() {
+        let mut other = Lesson::builtin("wrong-order-hot").unwrap();
+        other.scene = "hot-acid-85".to_owned();
+        let none = usual(&other).unwrap_err().to_string();
+        assert!(none.contains("hot-acid-85"), "{none}");
         let usual = |name| usual(&Lesson::builtin(name).unwrap());
         assert_eq!(usual("dilute").unwrap(), "dilute");
         assert_eq!(usual("examination").unwrap(), "examination");
-        assert_eq!(usual("wrong-order").unwrap(), "wrong-order");
-        let none = usual("wrong-order-hot").unwrap_err().to_string();
-        assert!(none.contains("hot-acid"), "{none}");
+        // Track `layer-and-swirl` has the scene of `wrong-order-layered` too, and gives none of its answers.
+        for name in ["wrong-order", "wrong-order-layered", "wrong-order-hot"] {
+            assert_eq!(usual(name).unwrap(), name);
+        }
     }
 
     /// Of ISO 639-2's two codes that of the language's own name.

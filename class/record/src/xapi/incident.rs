@@ -130,6 +130,7 @@ pub(crate) fn cause(cause: &Cause) -> (&'static str, Option<&str>) {
         Cause::LettingGo { flask } => ("letting-go", Some(flask)),
         Cause::Splashing { flask } => ("splashing", Some(flask)),
         Cause::Mixing { flask } => ("mixing", Some(flask)),
+        Cause::Swirling { flask } => ("swirling", Some(flask)),
         Cause::Heating { flask } => ("heating", Some(flask)),
         Cause::Unknown => ("unknown", None),
     }

@@ -13,7 +13,7 @@ use crate::event::{Cause, Content, Event, Incident, Pour, What};
 const WINDOW: f64 = 0.5;
 /// Liquids whose acid mass fractions differ by less give off no heat to speak of when mixed. Our choice.
 const ALIKE: f64 = 0.1;
-/// Time after a pour during which heat is still caused by it, s. Our choice.
+/// Time after a pour, or after layers were in a hand, during which heat is still caused by it, s. Our choice.
 const WARMS: f64 = 10.0;
 
 /// A flow under way from one flask to one place.
@@ -39,6 +39,8 @@ pub(crate) struct Flows {
     open: BTreeMap<Way, Flow>,
     /// When liquid that mixes with its target last arrived, by source and target, s.
     last: BTreeMap<Way, f64>,
+    /// When a hand last held the flask whose layers the scene begins with, s.
+    carried: Option<f64>,
     /// Contents of each flask at the previous observation.
     before: Vec<Option<Content>>,
 }
@@ -69,6 +71,10 @@ impl Flows {
             }
         }
         self.close(bench, seen.t, said);
+        let in_hand = |flask: usize| seen.held.get(flask) == Some(&true);
+        if bench.layered.is_some_and(in_hand) {
+            self.carried = Some(seen.t);
+        }
         let held = seen.census.flasks.iter();
         self.before = held
             .map(|held| (held.particles > 0).then(|| bench.content(held)))
@@ -164,12 +170,16 @@ impl Flows {
             .map(|((from, _), _)| *from)
     }
 
-    /// Cause of the heat of that flask's liquid.
+    /// Cause of the heat of that flask's liquid. Layers that nobody moved and nothing heats mix by themselves, or by what is dipped.
     pub fn why_hot(&self, bench: &Bench, flask: usize, now: f64) -> Cause {
         let name = bench.name(flask);
+        let layers = bench.layered == Some(flask);
+        let carried = self.carried.is_some_and(|at| now - at <= WARMS);
         match self.mixed(flask, now) {
             Some(_) => Cause::Mixing { flask: name },
+            None if layers && carried => Cause::Swirling { flask: name },
             None if bench.heated.get(flask) == Some(&true) => Cause::Heating { flask: name },
+            None if layers => Cause::Mixing { flask: name },
             None => Cause::Unknown,
         }
     }

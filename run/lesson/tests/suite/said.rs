@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use vitriol_lesson::{
-    Attempt, Cause, Criterion, Event, Incident, Pour, Rubric, Score, Sentence, Skin, Surface,
-    Texts, Tone, What, layered, sentences,
+    Attempt, Cause, Criterion, Event, Incident, Language, Pour, Rubric, Score, Sentence, Skin,
+    Surface, Texts, Tone, What, layered, sentences,
 };
 use vitriol_sim::scene::Scene;
 
@@ -108,6 +108,34 @@ fn the_wrong_order_is_told_with_its_causes() {
         1
     );
     assert!(!said.iter().any(|it| it.tone == Tone::Good), "{said:?}");
+}
+
+/// That moving layers mixed them is said of what boiled over, in each language.
+#[test]
+fn layers_that_were_moved_are_a_cause_in_words() {
+    let [mut attempt, _] = attempts();
+    for incident in &mut attempt.incidents {
+        if matches!(incident.what, What::BoiledOver { .. }) {
+            incident.cause = Cause::Swirling {
+                flask: "layers".into(),
+            };
+        }
+    }
+    for language in Language::ALL {
+        let texts = Texts::of(language).unwrap();
+        let score = Score::of(&attempt, &Rubric::default(), &texts);
+        let said = sentences(&attempt, &score, &texts);
+        let more = said.iter().filter_map(|it| it.more.as_deref());
+        assert_eq!(
+            more.filter(|it| it.contains("layers")).count(),
+            1,
+            "{language}"
+        );
+    }
+    let words = "Acid and water lay on one another in “layers”. Moving it mixed them, and all of their heat came at once.";
+    let said = said(&attempt);
+    let mut more = said.iter().filter_map(|it| it.more.as_deref());
+    assert!(more.any(|it| it.starts_with(words)), "{said:?}");
 }
 
 /// Acid and water first meet where the first pour that mixes them arrives.

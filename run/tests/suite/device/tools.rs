@@ -5,9 +5,9 @@ use std::path::Path;
 use vitriol_gpu::QueueKind;
 use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Lesson, Mode, Procedure, Sight};
-use vitriol_run::{Looks, stage};
+use vitriol_run::{Action, Looks, stage};
 use vitriol_shaders::Library;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::world::World;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Keyframes, builtin};
@@ -21,10 +21,11 @@ fn scene() -> Scene {
     scene
 }
 
-/// What is seen behind each step of a track.
+/// What is seen behind each step of a track, which is sampled once a step of the scene.
 fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol_lesson::Event])) {
     let gpu = gpu::device();
-    let track = track.replace("rate_hz = 90", "rate_hz = 30");
+    let rate = format!("rate_hz = {:.0}", scene.scale.frame_time.recip());
+    let track = track.replace("rate_hz = 90", &rate);
     let track = Keyframes::parse(&track, Path::new("track.toml")).unwrap();
     let track = track.sample_track();
     let mut world = World::new(&gpu, &Library::embedded(), scene, 1).unwrap();
@@ -43,6 +44,19 @@ fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol
     each(&Sight::default(), &looks.end());
 }
 
+/// What a track spells beside its poses, with its times, s.
+fn actions(track: &str) -> Vec<(f64, Action)> {
+    let track = Keyframes::parse(track, Path::new("track.toml")).unwrap();
+    let frames = track.sample_track().frames.into_iter();
+    let spelt = frames.flat_map(|frame| {
+        let t = frame.time_ns as f64 * 1e-9;
+        frame.scenario.into_iter().map(move |switch| (t, switch))
+    });
+    spelt
+        .filter_map(|(t, switch)| Some((t, Action::of(&switch).unwrap()?)))
+        .collect()
+}
+
 fn judged(track: &str) -> (Verdict, Vec<Progress>) {
     let lesson = Lesson::builtin("emergency").unwrap();
     judged_by((lesson, Mode::Guided), track, &scene())
@@ -56,9 +70,19 @@ fn judged_by(
     let mut judge = Procedure::new(lesson, mode);
     let mut last = Sight::default();
     let mut said = Vec::new();
+    let mut actions = actions(track).into_iter().peekable();
     go_through(track, scene, |sight, events| {
         if !sight.flasks.is_empty() {
             last.clone_from(sight);
+        }
+        while let Some((_, action)) = actions.next_if(|(t, _)| *t <= last.t_s) {
+            if let Action::Answer {
+                step: Some(step),
+                answer,
+            } = action
+            {
+                said.extend(judge.answer(&step, answer, last.t_s));
+            }
         }
         said.extend(judge.advance(&last, events));
     });
@@ -279,6 +303,26 @@ mod long {
     fn an_emergency_is_met_as_it_should_be() {
         let (verdict, said) = judged(builtin::text("emergency").unwrap());
         let all = ["rinse-glove", "glove-off", "rinse-hand", "put-down", "wipe"];
+        assert_eq!(done(&said), all, "{said:#?}");
+        assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:#?}");
+    }
+
+    /// By its own track, with few particles and without what boils: each step is done while it is asked for, and none fails.
+    #[test]
+    fn the_lesson_of_hot_acid_is_gone_through_by_its_track() {
+        let mut scene = Scene::builtin("hot-acid").unwrap();
+        for feature in [Feature::Evaporation, Feature::Losses, Feature::Segregation] {
+            (scene, _) = scene.without(feature);
+        }
+        scene.scale.spacing = 0.008;
+        scene.solver.substeps = 3;
+        scene.solver.iterations = 1;
+        let lesson = Lesson::builtin("wrong-order-hot").unwrap();
+        let track = builtin::text("wrong-order-hot").unwrap();
+        let (verdict, said) = judged_by((lesson, Mode::Guided), track, &scene);
+        let all = [
+            "dress", "predict", "lift", "pour", "put-down", "observe", "explain", "look",
+        ];
         assert_eq!(done(&said), all, "{said:#?}");
         assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:#?}");
     }

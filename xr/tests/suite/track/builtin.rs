@@ -2,7 +2,7 @@
 //! stands where it is lifted, pours over the mouth of the other vessel and touches nothing.
 
 use crate::track::convert;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use vitriol_xr::track::{Existing, Track, builtin, load};
 use vitriol_xr::{Pose, Side};
 
@@ -167,6 +167,50 @@ fn shake_shakes_hard_above_the_table() {
         path.iter()
             .all(|(_, flask)| flask.position.y > TABLE - NEAR && tilt(flask) < 16.0)
     );
+}
+
+/// The built-in track of that name from a time on, s: the hand closed in the box of gloves before.
+fn later(name: &str, from: f64) -> Track {
+    let mut track = load(name).unwrap();
+    track
+        .frames
+        .retain(|frame| frame.time_ns as f64 * 1e-9 > from);
+    track
+}
+
+#[test]
+fn wrong_order_hot_pours_as_two_flasks_does() {
+    let track = later("wrong-order-hot", 6.0);
+    let drained = pours(&track, Side::Right, -0.12, 0.12);
+    assert!(drained >= 1.0, "{drained} s");
+}
+
+/// Five turns of six are on the whole circle, 40 mm wide; the rest is the spiral to it and back.
+#[test]
+fn wrong_order_layered_swirls_upright() {
+    let track = later("wrong-order-layered", 6.0);
+    let path = carried(&track, Side::Right, -0.12);
+    let foot = Vec3::new(-0.12, TABLE, -0.40);
+    for (_, end) in [&path[0], path.last().unwrap()] {
+        assert!((end.position - foot).length() < NEAR, "{}", end.position);
+    }
+    let highest = path.iter().map(|(_, flask)| flask.position.y);
+    let highest = highest.fold(0.0, f32::max);
+    assert!((highest - TABLE - 0.05).abs() < NEAR, "{highest}");
+    assert!(path.iter().all(|(_, flask)| tilt(flask) < 0.1));
+
+    let aside = |flask: &Pose| Vec2::new(flask.position.x - foot.x, flask.position.z - foot.z);
+    let (mut widest, mut turned) = (0.0f32, 0.0f32);
+    for pair in path.windows(2) {
+        let [a, b] = [0, 1].map(|n| aside(&pair[n].1));
+        widest = widest.max(b.length());
+        if a.length() > 0.01 && b.length() > 0.01 {
+            turned += a.perp_dot(b).atan2(a.dot(b));
+        }
+    }
+    assert!((widest - 0.02).abs() < 1e-3, "{widest} m");
+    let turns = turned.abs() / std::f32::consts::TAU;
+    assert!((4.5..=5.5).contains(&turns), "{turns}");
 }
 
 #[test]

@@ -147,6 +147,45 @@ fn drops_boil_over_where_they_harm() {
     }
 }
 
+/// Layers of acid and water that a hand moves until they boil over, or moved just before, were mixed by that; on the bench they mix all
+/// the same. Where a scene has no layers and nothing was poured, the cause is not known.
+#[test]
+fn layers_boil_over_because_they_were_moved() {
+    let flask = || "source".to_owned();
+    let swirling = || Cause::Swirling { flask: flask() };
+    for (scene, in_hand, cause) in [
+        ("layer-and-swirl", [true, true], swirling()),
+        ("layer-and-swirl", [true, false], swirling()),
+        (
+            "layer-and-swirl",
+            [false, false],
+            Cause::Mixing { flask: flask() },
+        ),
+        ("water-into-acid", [true, true], Cause::Unknown),
+    ] {
+        let mut arranged = Arranged::new([0.82, 0.0]);
+        let file = Scene::builtin(scene).unwrap();
+        arranged.finder = Finder::new(scene, &file, Limits::default());
+        arranged.held[0].hottest = Some(140.0);
+        arranged.held[0].bubbles.here = BubbleCount {
+            count: 3,
+            radius: 1e-3,
+        };
+        for held in in_hand {
+            arranged.hands[0] = held;
+            arranged.looks(20, &|census| census);
+        }
+        for _ in 0..10 {
+            arranged.sprayed[0] += 0.1e-6;
+            arranged.looks(20, &|census| census);
+        }
+        let (_, incidents) = arranged.end();
+        let over = |it: &&Incident| matches!(it.what, What::BoiledOver { .. });
+        let over = incidents.iter().find(over).unwrap();
+        assert_eq!(over.cause, cause, "{scene} {in_hand:?}");
+    }
+}
+
 /// Gloves and goggles protect as long as they are worn; after one bare touch the skin counts as touched.
 #[test]
 fn a_glove_protects_while_it_is_on() {
