@@ -24,14 +24,16 @@ pub struct Choice {
     pub order: Order,
     /// Name of the scene that shows the other order; `None` where there is none.
     pub counterpart: Option<&'static str>,
+    /// Whether a student's panel offers it; others are the paper's, for an instructor and the keys.
+    pub on_panel: bool,
 }
 
-/// The scenes.
-pub const CHOICES: [Choice; 9] = [
+/// The scenes, those of the panel first.
+pub const CHOICES: [Choice; 11] = [
     choice('1', "acid-into-water", "Correct: acid into water").correct("water-into-acid"),
     choice('2', "water-into-acid", "Incorrect: water into acid").incorrect("acid-into-water"),
-    choice('3', "triple-dilution", "The paper's three flasks"),
-    choice('4', "vr-dilution", "The paper's VR dilution"),
+    choice('3', "fume-hood", "Acid into water, in the fume hood"),
+    choice('4', "acid-on-glove", "Emergency: acid on a glove"),
     choice('5', "two-flasks", "Water, two flasks"),
     choice('6', "three-flasks", "Water, three flasks"),
     choice(
@@ -44,6 +46,8 @@ pub const CHOICES: [Choice; 9] = [
         .incorrect("layer-and-swirl-right"),
     // It is in no pair, since no scene pours hot acid in the correct order. A second toggle leads to `water-into-acid`.
     choice('9', "hot-acid", "Incorrect: water into hot acid").incorrect("acid-into-water"),
+    choice('0', "triple-dilution", "The paper's three flasks").off_panel(),
+    choice('p', "vr-dilution", "The paper's VR dilution").off_panel(),
 ];
 
 const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
@@ -53,7 +57,13 @@ const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
         title,
         order: Order::Neither,
         counterpart: None,
+        on_panel: true,
     }
+}
+
+/// The scenes that a student's panel offers.
+pub fn on_panel() -> impl Iterator<Item = &'static Choice> {
+    CHOICES.iter().filter(|choice| choice.on_panel)
 }
 
 impl Choice {
@@ -61,6 +71,13 @@ impl Choice {
         Self {
             order: Order::Correct,
             counterpart: Some(counterpart),
+            ..self
+        }
+    }
+
+    const fn off_panel(self) -> Self {
+        Self {
+            on_panel: false,
             ..self
         }
     }
@@ -94,6 +111,23 @@ pub fn counterpart(scene: &str) -> Option<&'static str> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    /// Fume hood and emergency are offered to students, and the paper's scenes are not.
+    #[test]
+    fn the_panel_offers_what_is_for_students() {
+        let offered: Vec<&str> = on_panel().map(|choice| choice.scene).collect();
+        assert_eq!(offered.len(), 9);
+        assert!(
+            ["fume-hood", "acid-on-glove"]
+                .iter()
+                .all(|it| offered.contains(it))
+        );
+        assert!(
+            !["triple-dilution", "vr-dilution"]
+                .iter()
+                .any(|it| offered.contains(it))
+        );
+    }
 
     /// Titles say the order, and a counterpart shows the other one.
     #[test]

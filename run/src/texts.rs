@@ -64,9 +64,7 @@ pub struct PanelTexts {
     pub acid_on: AcidOnTexts,
     /// Texts on the effort of solver and picture.
     pub effort: EffortTexts,
-    /// What each scene is, by its name.
-    scene: BTreeMap<String, String>,
-    /// The same on its button, in two lines.
+    /// What each scene is, by its name, on its button, in two lines.
     button: BTreeMap<String, String>,
 }
 
@@ -161,11 +159,6 @@ impl PanelTexts {
     /// Acid by mass, whole per cent.
     pub fn acid(&self, per_cent: i32) -> String {
         self.acid.replace("{percent}", &per_cent.to_string())
-    }
-
-    /// What a scene is; of one without a text its name.
-    pub fn scene<'a>(&'a self, name: &'a str) -> &'a str {
-        self.scene.get(name).map_or(name, String::as_str)
     }
 
     /// What a scene is, in the two lines of its button; of one without a text its name.
@@ -351,7 +344,7 @@ impl Texts {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::choices::CHOICES;
+    use crate::choices::on_panel;
     use std::collections::BTreeSet;
 
     #[test]
@@ -427,20 +420,14 @@ mod tests {
         }
     }
 
-    /// Each scene that can be chosen has its texts, and no other has one.
+    /// Each scene that the panel offers has its text, and no other has one.
     #[test]
     fn each_choice_has_its_text() {
-        let choices: BTreeSet<&str> = CHOICES.iter().map(|choice| choice.scene).collect();
+        let choices: BTreeSet<&str> = on_panel().map(|choice| choice.scene).collect();
         for language in Language::ALL {
             let words = Texts::of(language).unwrap().panel;
-            for texts in [&words.scene, &words.button] {
-                let named: BTreeSet<&str> = texts.keys().map(String::as_str).collect();
-                assert_eq!(named, choices, "{language}");
-            }
-        }
-        let english = Texts::english().unwrap().panel;
-        for choice in CHOICES {
-            assert_eq!(english.scene(choice.scene), choice.title);
+            let named: BTreeSet<&str> = words.button.keys().map(String::as_str).collect();
+            assert_eq!(named, choices, "{language}");
         }
     }
 

@@ -11,6 +11,7 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_run::{Blame, Failure};
 use vitriol_sim::flask::Profile;
+use vitriol_sim::flask::glassware;
 use vitriol_sim::measure::{HeatMeasurement, measure_heat};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -327,6 +328,7 @@ impl Vessel {
             }),
             flasks: vec![Flask {
                 name: "calorimeter".into(),
+                vessel: glassware::Vessel::default(),
                 mass: 0.0,
                 profile: self.profile.clone(),
                 stage_from_flask: self.pose(0.0),

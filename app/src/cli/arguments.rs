@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
+use vitriol_lesson::Language;
 use vitriol_run::Colour;
 use vitriol_run::arguments::{file_of, filter, named, positive, preset, whole};
 use vitriol_run::units::pair;
@@ -77,7 +78,7 @@ pub struct ReplayArgs {
     /// In place of a report: these two scenes at the same time, side by side in a film and an animated picture, with
     /// highest temperatures and thrown masses as captions
     #[arg(long, value_name = "SCENE,SCENE", value_parser = two_scenes)]
-    #[arg(conflicts_with_all = ["scene", "budget_ms", "camera", "colour", "lesson", "mode", "no_video"])]
+    #[arg(conflicts_with_all = ["scene", "budget_ms", "camera", "colour", "language", "lesson", "mode", "no_video"])]
     #[cfg_attr(feature = "class", arg(conflicts_with_all = ["pseudonym", "live"]))]
     pub compare: Option<[String; 2]>,
     /// Trade of speed for accuracy; without it the one that the track was
@@ -124,6 +125,9 @@ pub struct ReplayArgs {
     /// What is judged
     #[command(flatten)]
     pub judge: JudgeArgs,
+    /// Language of what the report and the console say of the attempt: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
     /// What is kept of a student
     #[cfg(feature = "class")]
     #[command(flatten)]

@@ -28,7 +28,7 @@ pub struct VrArgs {
     /// How: guided, free or examination; without it as the lesson says
     #[arg(long, value_name = "MODE", requires = "lesson")]
     pub mode: Option<Mode>,
-    /// Language of the panel and of the lesson: en, de, es or zh
+    /// Language of the panel, of the lesson and of what the console is told: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// Trade of speed for accuracy

@@ -242,7 +242,7 @@ fn replay(
     )?;
     report.recording = recording;
     report.lesson = retold.unwrap_or_default();
-    let texts = Texts::english().other()?;
+    let texts = Texts::of(args.language).other()?;
     report.judge(&rubric, &texts);
     for (name, picture) in POSTERS.iter().zip(&posters) {
         let file = output::png(picture, FILM_SIZE, ColorType::Rgba)?;
@@ -319,7 +319,7 @@ impl Recorded {
         }
         RecordingStatement {
             same_progress: progress.map(|said| said == outcome.progress),
-            same_events: (!events.is_empty()).then(|| events == outcome.events),
+            same_events: (!events.is_empty()).then(|| Event::are_same(&events, &outcome.events)),
             program_version: metadata.program_version.clone(),
             device: metadata.parameters.get(DEVICE).cloned(),
             driver: metadata.parameters.get(DRIVER).cloned(),

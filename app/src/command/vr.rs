@@ -74,7 +74,11 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
     let serving = match args.no_console {
         true => None,
-        false => Some(Arc::new(Serving::begin(&args.console, true)?)),
+        false => Some(Arc::new(Serving::begin(
+            &args.console,
+            args.language,
+            true,
+        )?)),
     };
     if let Some(serving) = &serving {
         options.console = Some(serving.console().clone());

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use vitriol_lesson::Texts;
 use vitriol_run::{HeatSample, LedgerSample, Sample, units};
 
 use super::model::Report;
@@ -20,7 +21,7 @@ pub struct Plotted {
 impl Report {
     /// What left the flasks and flies above their rims, and what is spilled and
     /// evaporated; of runs in which anything did.
-    pub(super) fn departures(&self) -> Vec<Plotted> {
+    pub(super) fn departures(&self, texts: &Texts) -> Vec<Plotted> {
         let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
         let mist = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.mist_kg);
         let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
@@ -35,10 +36,12 @@ impl Report {
         let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
         let curves = lost.into_iter().map(|(curve, _)| curve).collect();
         [
-            self.by_flask("Mass above the rim, by the flask that it left", |s| {
-                &s.above_rim_kg
-            }),
-            self.by_flask("Mass that has left a flask", |s| &s.left_kg),
+            self.by_flask(
+                texts,
+                "Mass above the rim, by the flask that it left",
+                |s| &s.above_rim_kg,
+            ),
+            self.by_flask(texts, "Mass that has left a flask", |s| &s.left_kg),
             self.scaled("Spilled and evaporated", units::mass(most), most, curves),
         ]
         .into_iter()
@@ -157,13 +160,17 @@ impl Report {
 
     fn by_flask(
         &self,
+        texts: &Texts,
         title: &'static str,
         masses: fn(&Sample) -> &BTreeMap<String, f64>,
     ) -> Option<Plotted> {
         let of = |flask: &str, sample: &Sample| masses(sample).get(flask).copied();
         let names = self.mass_kg.flasks.keys();
         let curves: Vec<Curve> = names
-            .map(|flask| self.curve(flask, &|s| of(flask, s).unwrap_or(f64::NAN)))
+            .map(|flask| {
+                let named = self.flask(flask, texts);
+                self.curve(&named, &|s| of(flask, s).unwrap_or(f64::NAN))
+            })
             .collect();
         let values = self
             .series

@@ -21,7 +21,7 @@ impl Report {
                         @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
                         article.attempt {
                             (contact)
-                            (heading(number, several, attempt, score))
+                            (heading((number, several), attempt, score, texts))
                             (told(&said, film))
                         }
                     }
@@ -33,7 +33,7 @@ impl Report {
                 section id=(format!("score-{number}")) {
                     h2 {
                         "Score"
-                        @if several { " of attempt " (number) ", " (attempt.scene) }
+                        @if several { " of attempt " (number) ", " (texts.scene(&attempt.scene)) }
                     }
                     (points(score, texts, film))
                 }
@@ -41,7 +41,7 @@ impl Report {
             @for (number, verdict) in (1..).zip(&self.lesson) {
                 section id=(format!("lesson-{number}")) {
                     h2 {
-                        "Lesson " (verdict.lesson) ", " (texts.mode(verdict.mode))
+                        "Lesson: " (texts.lesson(&verdict.lesson)) ", " (texts.mode(verdict.mode))
                         @if self.lesson.len() > 1 { ", begun for the " (number) ". time" }
                     }
                     (judged(verdict, texts, film))
@@ -56,7 +56,7 @@ fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
     let row = |line: &VerdictLine| {
         html! {
             tr {
-                th scope="row" { (line.id) p.note { @if line.rule { "rule" } @else { "step" } } }
+                th scope="row" { (texts.asked(&verdict.lesson, &line.id)) p.note { @if line.rule { "rule" } @else { "step" } } }
                 td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
                 td {
                     ul.said {
@@ -127,11 +127,16 @@ fn contact(
 }
 
 /// An attempt's name and points.
-fn heading(number: usize, several: bool, attempt: &Attempt, score: &Score) -> Markup {
+fn heading(
+    (number, several): (usize, bool),
+    attempt: &Attempt,
+    score: &Score,
+    texts: &Texts,
+) -> Markup {
     html! {
         header {
             @if several {
-                h3 { "Attempt " (number) ", " (attempt.scene) }
+                h3 { "Attempt " (number) ", " (texts.scene(&attempt.scene)) }
             }
             @if score.of > 0 {
                 p.total {

@@ -23,28 +23,28 @@ impl Report {
         let told = !self.attempts.is_empty();
         let body = html! {
             main {
-                (self.header(told))
+                (self.header(told, texts))
                 @if told { (self.happened(texts)) } @else { (self.film()) }
                 details.solver open[!told] {
                     summary { h2 { "The solver's figures" } }
                     @if told { p.lead { (self.run()) } }
                     (self.figures(texts))
-                    (self.whereabouts())
-                    (self.plots())
+                    (self.whereabouts(texts))
+                    (self.plots(texts))
                     (self.statements())
                 }
                 (self.footer())
             }
             script { (PreEscaped(SCRIPT)) }
         };
-        page(&self.heading(), STYLE, &body)
+        page(&self.heading(texts), STYLE, &body)
     }
 
-    fn header(&self, told: bool) -> Markup {
+    fn header(&self, told: bool, texts: &Texts) -> Markup {
         html! {
             header {
                 p.kicker { "Vitriol · replay of a recorded pour" }
-                h1 { (self.heading()) }
+                h1 { (self.heading(texts)) }
                 @if !told { p.lead { (self.run()) } }
             }
         }
@@ -157,7 +157,7 @@ impl Report {
         }
     }
 
-    fn whereabouts(&self) -> Markup {
+    fn whereabouts(&self, texts: &Texts) -> Markup {
         let total = self.mass_kg.total();
         let unit = units::mass(total);
         let share = |kg: f64| if total > 0.0 { kg / total } else { 0.0 };
@@ -177,7 +177,7 @@ impl Report {
                     tbody {
                         @for (index, (place, kg)) in self.mass_kg.places().enumerate() {
                             tr {
-                                th scope="row" { i class=(colour_class(index)) {} (place) }
+                                th scope="row" { i class=(colour_class(index)) {} (self.flask(place, texts)) }
                                 td.number { (with_unit(kg, unit)) }
                                 td.number { (format!("{:.1} %", share(kg) * 100.0)) }
                             }
@@ -191,7 +191,7 @@ impl Report {
         }
     }
 
-    fn plots(&self) -> Markup {
+    fn plots(&self, texts: &Texts) -> Markup {
         let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| self.curve(label, value);
         let energy = units::energy(self.largest(&|s| s.kinetic_energy_j));
         let mass = units::mass(self.largest(&|s| s.mass_kg.total()));
@@ -200,7 +200,7 @@ impl Report {
             .places()
             .enumerate()
             .map(|(index, (place, _))| {
-                curve(place, &|s| {
+                curve(&self.flask(place, texts), &|s| {
                     s.mass_kg.places().nth(index).map_or(f64::NAN, |p| p.1) * mass.factor
                 })
             })
@@ -217,7 +217,7 @@ impl Report {
                         curve("kinetic energy", &|s| s.kinetic_energy_j * energy.factor),
                     ]))
                     (plot("Mass by place", mass.symbol, &places))
-                    @for plotted in self.chemistry().iter().chain(&self.departures()) {
+                    @for plotted in self.chemistry().iter().chain(&self.departures(texts)) {
                         (plot(plotted.title, plotted.unit, &plotted.curves))
                     }
                     (plot("Neighbour list rebuilt", "times since the start", &[
@@ -247,6 +247,7 @@ impl Report {
                     h2 { "Scene and solver" }
                     table { tbody {
                         (row("Scene", &scene.name))
+                        (row("Track", &self.track))
                         (row("Preset, seed", &format!("{}, {}", self.preset, self.seed)))
                         (row("Particle diameter d", &with_unit(scene.d_m, units::length(scene.d_m))))
                         (row("Support radius h/d", &three_digits(scene.h_over_d)))
@@ -288,12 +289,19 @@ impl Report {
         }
     }
 
-    /// The track, and the scene where that is not the track's own.
-    fn heading(&self) -> String {
-        if self.scene.name == self.track {
-            self.track.clone()
-        } else {
-            format!("{}, {}", self.scene.name, self.track)
+    /// What was done, or the scene's title where acid and water did not come together.
+    fn heading(&self, texts: &Texts) -> String {
+        let done = texts.done(&self.attempts);
+        done.unwrap_or_else(|| texts.scene(&self.scene.name).to_owned())
+    }
+
+    /// Name of the flask that the scene's file calls so; another place's name stays as it is.
+    pub(super) fn flask(&self, name: &str, texts: &Texts) -> String {
+        let mut attempts = self.attempts.iter();
+        let of_scene = attempts.rfind(|it| it.scene == self.scene.name);
+        match of_scene.filter(|it| it.glass.contains_key(name)) {
+            Some(attempt) => texts.flask(&attempt.glass, name),
+            None => name.to_owned(),
         }
     }
 

@@ -14,7 +14,7 @@ use vitriol::report::Report;
 use vitriol_run::{Action, Colour, Experiment, Failure, Format, Setup};
 
 use toy::{FLASK, Toy, replay, replay_of, report_of};
-use vitriol_lesson::{Attempt, Event, Rubric, Texts};
+use vitriol_lesson::{Attempt, Event, Language, Rubric, Texts};
 use vitriol_record::store::Store;
 use vitriol_sim::scene::PictureRoom;
 use vitriol_tests::browser::{self, Look};
@@ -319,6 +319,25 @@ fn a_report_of_attempts_is_read_again() {
     assert!(page.contains("No points") && !page.contains("id=\"score-1\""));
 }
 
+/// Title, scenes, flasks and sentences are in the language that is asked for, and the command line asks for it again.
+#[test]
+fn a_report_speaks_the_language_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = ["--seconds", "0.1", "--no-video", "--language", "de"];
+    replay(folder.path(), &asked, u64::MAX).unwrap();
+    let report = report_of(folder.path());
+    assert!(report.command.contains(" --language de"));
+    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("<h1>Wasser und zwei Bechergläser</h1>"));
+    let page = told(report).0.to_html(&Texts::of(Language::De).unwrap());
+    for part in [
+        "<h1>Wasser wurde in konzentrierte Säure gegossen</h1>",
+        "Das Becherglas mit 98-prozentiger Säure kochte über",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
 #[test]
 fn the_report_reads_in_a_browser() {
     let folder = tempfile::tempdir().unwrap();
@@ -452,7 +471,8 @@ fn the_report_reads_in_a_browser() {
         "11 of 100 points",
         "At most 40 of 100 points: water was poured into acid.",
         "99 of 100 points",
-        &format!("“{FLASK}” boiled over and threw out: 3.4\u{a0}mL of 71\u{a0}% acid."),
+        "Water was poured into concentrated acid",
+        "The beaker with 98\u{a0}% acid boiled over and threw out: 3.4\u{a0}mL of 71\u{a0}% acid.",
     ] {
         assert!(text.contains(part), "{part} is missing in {text}");
     }

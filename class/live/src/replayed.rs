@@ -14,7 +14,6 @@ use vitriol_xr::PoseFrame;
 use super::coder::{Coder, RawPicture};
 use super::serve::Console;
 use super::told::{incidents, readings};
-use vitriol_run::choices;
 
 /// Time between two looks for orders while time is held.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -52,7 +51,7 @@ impl Live {
             inner,
             coder: Coder::new(&console.port)?,
             console: console.clone(),
-            texts: Texts::english().other()?,
+            texts: Texts::of(console.language).other()?,
             scene: scene.to_owned(),
             time: SimulatedTime::default(),
             controls: Controls::default(),
@@ -113,7 +112,6 @@ impl Live {
     fn state(&self, glimpse: &Glimpse<'_>) -> State {
         let (scene, switched) = glimpse.scene;
         let name = switched.unwrap_or(&self.scene);
-        let title = choices::of(name);
         let mut controls = Controls {
             k_v: glimpse.intensity,
             ..self.controls.clone()
@@ -131,13 +129,13 @@ impl Live {
         State {
             frame: self.time.steps(),
             time_s: Some(self.time.seconds()),
-            scene: Text::clipped(title.map_or(name, |choice| choice.title)),
+            scene: Text::clipped(self.texts.scene(name)),
             choice: None,
             done: self.done,
             controls,
             step: None,
             hints: List::default(),
-            readings: readings(scene, glimpse.flasks, glimpse.spilt),
+            readings: readings(scene, &self.texts, glimpse.flasks, glimpse.spilt),
             incidents: List::clipped(lately.cloned()),
             incidents_so_far: all.len() as u32,
             frames: Frames {

@@ -7,6 +7,7 @@ use serde::Serialize;
 use vitriol_console::{
     Choice, Config, Hub, HubAddress, Kind, Link, List, Port, Range, Student, Text,
 };
+use vitriol_lesson::{Language, Texts};
 use vitriol_run::{Blame, Failure, Format};
 use vitriol_sim::world::MOST_INTENSITY;
 
@@ -22,6 +23,8 @@ pub struct Console {
     pub port: Port,
     /// The description of this program that the instructor was sent.
     pub student: Student,
+    /// The language in which the instructor is told of scenes, flasks and incidents.
+    pub language: Language,
 }
 
 /// The console while a program runs. It ends when this is dropped.
@@ -42,17 +45,26 @@ struct Said<'a> {
 }
 
 impl Serving {
-    /// Serves it or dials, as `args` set it, for a session or a replay.
+    /// Serves it or dials, as `args` set it, for a session or a replay, and tells of it in that language.
     ///
     /// # Errors
     /// [`Failure::Input`] for an address that cannot be listened on.
-    pub fn begin(args: &ConsoleArgs, is_session: bool) -> Result<Self, Failure> {
-        let student = student(args.name.as_deref(), is_session);
+    pub fn begin(
+        args: &ConsoleArgs,
+        language: Language,
+        is_session: bool,
+    ) -> Result<Self, Failure> {
+        let texts = Texts::of(language).other()?;
+        let student = student((args.name.as_deref(), &texts), is_session);
         if let Some(address) = &args.hub {
             let link = Link::start(address.clone(), student.clone()).other()?;
             let port = link.port().clone();
             return Ok(Self {
-                console: Console { port, student },
+                console: Console {
+                    port,
+                    student,
+                    language,
+                },
                 hub: None,
                 _link: Some(link),
             });
@@ -65,7 +77,11 @@ impl Serving {
             .ok_or("the console has no place for its own student")
             .other()?;
         Ok(Self {
-            console: Console { port, student },
+            console: Console {
+                port,
+                student,
+                language,
+            },
             hub: Some(hub),
             _link: None,
         })
@@ -145,7 +161,7 @@ pub fn invitation(hub: &Hub, format: Format) -> Result<String, Failure> {
 }
 
 /// The description of a program of that name for an instructor: a session, in which scenes can be brought up, or a replay.
-pub fn student(name: Option<&str>, is_session: bool) -> Student {
+pub fn student((name, texts): (Option<&str>, &Texts), is_session: bool) -> Student {
     let name = name.map(str::to_owned).or_else(computer);
     let name = name.unwrap_or_else(|| "computer".to_owned());
     let kind = |order: Order| match order {
@@ -158,7 +174,7 @@ pub fn student(name: Option<&str>, is_session: bool) -> Student {
         name: Text::clipped(&name),
         version: Text::clipped(env!("CARGO_PKG_VERSION")),
         choices: List::clipped(choices.map(|choice| Choice {
-            title: Text::clipped(choice.title),
+            title: Text::clipped(texts.scene(choice.scene)),
             kind: kind(choice.order),
             counterpart: choice.counterpart.and_then(index),
         })),

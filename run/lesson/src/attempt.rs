@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::event::{Contents, Ending, Event, Incident, Pour};
+use crate::glass::Glassware;
 
 /// What a student did from the start of a scene to its end, or to the next start.
 #[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
@@ -14,6 +15,9 @@ pub struct Attempt {
     pub scene: String,
     /// What each flask held at the start.
     pub contents: Contents,
+    /// What each flask is, as texts name it; empty in reports and recordings of older versions.
+    #[serde(default, skip_serializing_if = "Glassware::is_empty")]
+    pub glass: Glassware,
     /// Pours, in order of the time at which their first liquid arrived.
     pub pours: Vec<Pour>,
     /// Incidents, in order of the time at which they began.
@@ -31,12 +35,14 @@ impl Attempt {
                 t_s,
                 scene,
                 contents,
+                glass,
             } = event
             {
                 attempts.push(Self {
                     begun_s: t_s,
                     scene,
                     contents,
+                    glass,
                     pours: Vec::new(),
                     incidents: Vec::new(),
                     ending: None,

@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::glass::Glassware;
+
 /// An event of an attempt, found in the census of particles and emitted once it is over.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "kebab-case")]
@@ -18,6 +20,9 @@ pub enum Event {
         scene: String,
         /// Contents of each flask at the start.
         contents: Contents,
+        /// What each flask is, as texts name it; empty in recordings of older versions.
+        #[serde(default, skip_serializing_if = "Glassware::is_empty")]
+        glass: Glassware,
     },
     /// Liquid was poured.
     Poured(Pour),
@@ -31,6 +36,21 @@ impl Event {
     /// JSON schema of an event as a recording stores it.
     pub fn schema() -> String {
         schemars::schema_for!(Self).to_value().to_string()
+    }
+
+    /// Whether a run found what a recording has. Recordings of older versions have no [`Glassware`].
+    pub fn are_same(recorded: &[Self], found: &[Self]) -> bool {
+        let same = |(recorded, found): (&Self, &Self)| match (recorded, found) {
+            (Self::Begun { glass, .. }, Self::Begun { .. }) if glass.is_empty() => {
+                let mut found = found.clone();
+                if let Self::Begun { glass, .. } = &mut found {
+                    glass.clear();
+                }
+                *recorded == found
+            }
+            _ => recorded == found,
+        };
+        recorded.len() == found.len() && recorded.iter().zip(found).all(same)
     }
 }
 

@@ -23,6 +23,7 @@ use vitriol_sim::scene::{Feature, Scene, TableTop, ToolKind};
 use vitriol_sim::solver::{Census, Held};
 
 use crate::event::{Content, Contents, Ending, Event};
+use crate::glass::{Glass, Glassware};
 use crate::limits::Limits;
 use crate::mixing::layered;
 use broken::GlassFalls;
@@ -170,6 +171,7 @@ impl Bench {
 pub struct Finder {
     bench: Bench,
     scene: String,
+    glass: Glassware,
     begun: bool,
     leavings: Leavings,
     flows: Flows,
@@ -195,6 +197,7 @@ impl Finder {
         Self {
             bench: Bench::of(scene, limits),
             scene: name.to_owned(),
+            glass: Glass::all(scene),
             begun: false,
             leavings: Leavings::default(),
             flows: Flows::default(),
@@ -221,6 +224,7 @@ impl Finder {
                 t_s: seen.t - seen.elapsed,
                 scene: self.scene.clone(),
                 contents: contents.clone(),
+                glass: self.glass.clone(),
             });
         }
         self.leavings.looked(bench, seen);

@@ -10,6 +10,7 @@ mod caps;
 mod contact;
 mod event;
 mod finder;
+mod glass;
 mod language;
 mod limits;
 mod mixing;
@@ -30,6 +31,7 @@ pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
 pub use finder::{Dipped, Finder, Seen};
+pub use glass::{Glass, Glassware, Holding, Place};
 pub use language::{Language, LanguageError};
 pub use limits::Limits;
 pub use mixing::layered;

@@ -395,7 +395,7 @@ impl Judge<'_> {
     fn pour(&self, pour: &Pour) -> Evidence {
         Evidence {
             t_s: Some(pour.t_s),
-            text: self.texts.pour(pour),
+            text: self.texts.pour(self.attempt, pour),
         }
     }
 }

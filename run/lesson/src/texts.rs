@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
+use vitriol_sim::flask::glassware::Vessel;
 
 use crate::language::Language;
 use crate::procedure::LessonTexts;
@@ -46,15 +47,25 @@ pub enum TextsError {
 pub(crate) struct Template(String);
 
 impl Template {
-    /// The sentence with its holes filled. Braces in a filled-in value stay as they are: names come from scene files.
+    /// The sentence with its holes filled. What fills a hole that is written with a capital, `{Flask}`, gets one.
+    /// Braces in a filled-in value stay as they are.
     pub(crate) fn fill(&self, holes: &[(&str, &str)]) -> String {
         let mut text = String::new();
         for part in parts(&self.0) {
             match part {
                 Part::Text(it) => text += it,
                 Part::Hole(name) => {
-                    let filled = holes.iter().find(|hole| hole.0 == name);
-                    text += filled.map_or("", |hole| hole.1);
+                    let plain = name.to_lowercase();
+                    let filled = holes.iter().find(|hole| hole.0 == plain);
+                    let filled = filled.map_or("", |hole| hole.1);
+                    let mut letters = filled.chars();
+                    match letters.next() {
+                        Some(first) if plain != name => {
+                            text.extend(first.to_uppercase());
+                            text += letters.as_str();
+                        }
+                        _ => text += filled,
+                    }
                 }
             }
         }
@@ -96,7 +107,7 @@ section!(Number: decimal);
 section!(Unit: millilitres litres millilitres_a_second seconds minutes hours celsius percent metres_a_second
     centimetres centimetres_a_second milligrams grams);
 section!(Amount: water acid);
-section!(Join: two);
+section!(Join: two glass);
 section!(Pour: acid_into_water plain beside nothing);
 section!(Wrong: water_into_acid water_into_acid_at poured_too_fast boiled_over hot spilt_bench spilt_floor left_hand right_hand face
     left_glove right_glove goggles dropped broke);
@@ -115,6 +126,9 @@ section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over
     sash_open time_up wrong_answer skipped not_done);
 section!(ModeNames: guided free examination);
 section!(PanelTexts: hint skip finish steps more);
+section!(GlassTexts: water acid layers empty left right nth);
+section!(Done: water_into_acid acid_into_water);
+section!(Forms: label subject into of);
 
 /// The texts of one language: a file of `run/lesson/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -140,6 +154,12 @@ pub struct Texts {
     pub(crate) why: WhyTexts,
     pub(crate) mode: ModeNames,
     pub(crate) panel: PanelTexts,
+    pub(crate) glass: GlassTexts,
+    /// Kinds of flasks, each in the forms that sentences ask for.
+    pub(crate) vessel: BTreeMap<Vessel, Forms>,
+    pub(crate) done: Done,
+    /// Titles of the built-in scenes, by name.
+    scene: BTreeMap<String, String>,
     /// Texts of the built-in lessons, by name.
     pub(crate) lesson: BTreeMap<String, LessonTexts>,
 }
@@ -159,6 +179,24 @@ impl Texts {
     /// As for [`Texts::parse`], which a test rules out.
     pub fn of(language: Language) -> Result<Self, TextsError> {
         Self::parse(table(language))
+    }
+
+    /// Title of the scene of that name; of one that is not built in its name.
+    pub fn scene<'a>(&'a self, name: &'a str) -> &'a str {
+        self.scene.get(name).map_or(name, String::as_str)
+    }
+
+    /// Title of the lesson of that name; of one that is not built in its name.
+    pub fn lesson<'a>(&'a self, name: &'a str) -> &'a str {
+        self.lesson.get(name).map_or(name, |texts| &texts.title)
+    }
+
+    /// What the step or rule `id` of that lesson asks for; of a lesson that is not built in the id.
+    pub fn asked<'a>(&'a self, lesson: &str, id: &'a str) -> &'a str {
+        let texts = self.lesson.get(lesson);
+        let step = texts.and_then(|texts| Some(&texts.step.get(id)?.text));
+        let asked = step.or_else(|| texts?.rule.get(id));
+        asked.map_or(id, String::as_str)
     }
 
     /// Parses the text of a file.
@@ -203,7 +241,8 @@ fn holes(text: &str) -> Result<BTreeMap<String, BTreeSet<String>>, toml::de::Err
     let sentences = sentences(text)?;
     let of = |sentence: &str| {
         let holes = parts(sentence).filter_map(|part| match part {
-            Part::Hole(name) => Some(name.to_owned()),
+            // Its form is each language's own.
+            Part::Hole(name) => name.to_lowercase().split(':').next().map(str::to_owned),
             Part::Text(_) => None,
         });
         holes.collect::<BTreeSet<_>>()
@@ -244,6 +283,8 @@ fn gather(path: &str, table: toml::Table, found: &mut BTreeMap<String, String>) 
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::Lesson;
+    use vitriol_sim::scene::Scene;
 
     #[test]
     fn a_table_lacks_nothing_and_has_nothing_else() {
@@ -287,6 +328,40 @@ mod tests {
                     language == Language::En || same(key) || !is_english,
                     "{language}: {key}"
                 );
+            }
+        }
+    }
+
+    /// Each built-in scene has a title, and no other has one.
+    #[test]
+    fn each_scene_has_its_title() {
+        let scenes: BTreeSet<&str> = Scene::builtin_names().into_iter().collect();
+        for language in Language::ALL {
+            let texts = Texts::of(language).unwrap();
+            let titled: BTreeSet<&str> = texts.scene.keys().map(String::as_str).collect();
+            assert_eq!(titled, scenes, "{language}");
+            assert!(texts.scene.values().all(|it| it.chars().count() <= 35));
+            let titles: BTreeSet<&String> = texts.scene.values().collect();
+            assert_eq!(titles.len(), scenes.len(), "{language}");
+            assert_eq!(texts.scene("own.toml"), "own.toml");
+        }
+    }
+
+    /// No text for students has a flask's name from a scene's file, nor the name of a scene's or a lesson's file.
+    #[test]
+    fn no_text_has_a_name_of_a_file() {
+        let lessons = Lesson::builtin_names();
+        let files = lessons.into_iter().chain(Scene::builtin_names());
+        let files: Vec<&str> = files.filter(|it| it.contains('-')).collect();
+        for language in Language::ALL {
+            for (key, sentence) in sentences(table(language)).unwrap() {
+                let words = sentence.split(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+                for word in words {
+                    let is_file = ["source", "target"].contains(&word) || files.contains(&word);
+                    assert!(!is_file, "{language}: {key}: {sentence}");
+                }
+                let quoted = ["“dilute”", "„dilute“", "«dilute»"];
+                assert!(!quoted.iter().any(|it| sentence.contains(it)), "{key}");
             }
         }
     }

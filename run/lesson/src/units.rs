@@ -4,7 +4,7 @@
 use crate::texts::{Template, Texts};
 
 /// Below this mass fraction liquid is called water: it would be given as 0 %. Our choice.
-const WATER: f64 = 0.005;
+pub(crate) const WATER: f64 = 0.005;
 /// Below this volume, m³, a second digit says nothing: it is a few drops of spray. Our choice.
 const FEW: f64 = 0.01e-6;
 

@@ -47,14 +47,14 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
     for pour in attempt.pours.iter().filter(|it| !attempt.says(it)) {
         let good = pour.is_acid_into_water();
         let tone = if good { Tone::Good } else { Tone::Plain };
-        say(Some(pour.t_s), tone, texts.pour(pour), None);
+        say(Some(pour.t_s), tone, texts.pour(attempt, pour), None);
     }
     if attempt.pours.is_empty() {
         say(None, Tone::Plain, texts.pour.nothing.text(), None);
     }
     let mut dangers = BTreeSet::new();
     for incident in &attempt.incidents {
-        let more = texts.more(incident, &mut dangers);
+        let more = texts.more(attempt, incident, &mut dangers);
         let text = texts.wrong(attempt, incident);
         say(Some(incident.t_s), Tone::Bad, text, more);
     }
@@ -115,8 +115,23 @@ impl Cause {
 }
 
 impl Texts {
+    /// What these attempts came to, as a title: the first that brought acid and water together in the wrong order, or else in the right
+    /// one; `None` where none did.
+    pub fn done(&self, attempts: &[Attempt]) -> Option<String> {
+        let mut incidents = attempts.iter().flat_map(|it| &it.incidents);
+        let mut pours = attempts.iter().flat_map(|it| &it.pours);
+        let wrong = |it: &Incident| matches!(it.what, What::WaterIntoAcid { .. });
+        if incidents.any(wrong) {
+            Some(self.done.water_into_acid.text())
+        } else if pours.any(Pour::is_acid_into_water) {
+            Some(self.done.acid_into_water.text())
+        } else {
+            None
+        }
+    }
+
     /// A sentence about a pour.
-    pub(crate) fn pour(&self, pour: &Pour) -> String {
+    pub(crate) fn pour(&self, attempt: &Attempt, pour: &Pour) -> String {
         let amount = self.amount(pour.volume_m3, pour.acid);
         let (duration, rate) = (self.duration(pour.lasted_s()), self.rate(pour.fastest_m3_s));
         let template = match &pour.into {
@@ -124,19 +139,26 @@ impl Texts {
             Some(_) if pour.is_acid_into_water() => &self.pour.acid_into_water,
             Some(_) => &self.pour.plain,
         };
-        template.fill(&[
-            ("amount", &amount),
-            ("duration", &duration),
-            ("rate", &rate),
-            ("from", &pour.from),
-            ("into", pour.into.as_deref().unwrap_or("")),
-        ])
+        let into = pour.into.as_deref().unwrap_or("");
+        self.with_flasks(
+            template,
+            &attempt.glass,
+            &[("from", &pour.from), ("into", into)],
+            &[
+                ("amount", &amount),
+                ("duration", &duration),
+                ("rate", &rate),
+            ],
+        )
     }
 
     /// A sentence about an incident, without cause and danger.
     pub fn wrong(&self, attempt: &Attempt, incident: &Incident) -> String {
         let wrong = &self.wrong;
         let with = |template: &Template, holes: &[(&str, &str)]| template.fill(holes);
+        let of = |template: &Template, flask: &str, holes: &[(&str, &str)]| {
+            self.with_flasks(template, &attempt.glass, &[("flask", flask)], holes)
+        };
         match &incident.what {
             What::WaterIntoAcid {
                 flask,
@@ -150,40 +172,40 @@ impl Texts {
                 } else {
                     &wrong.water_into_acid
                 };
-                template.fill(&[
-                    ("acid", &self.fraction(*met_acid)),
-                    ("volume", &self.volume(*volume_m3)),
-                    ("duration", &self.duration(incident.lasted_s())),
-                    ("rate", rate.as_deref().unwrap_or("")),
-                    ("flask", flask),
-                ])
+                of(
+                    template,
+                    flask,
+                    &[
+                        ("acid", &self.fraction(*met_acid)),
+                        ("volume", &self.volume(*volume_m3)),
+                        ("duration", &self.duration(incident.lasted_s())),
+                        ("rate", rate.as_deref().unwrap_or("")),
+                    ],
+                )
             }
             What::PouredTooFast {
                 flask,
                 rate_m3_s,
                 limit_m3_s,
-            } => wrong.poured_too_fast.fill(&[
-                ("flask", flask),
-                ("rate", &self.rate(*rate_m3_s)),
-                ("limit", &self.rate(*limit_m3_s)),
-            ]),
+            } => {
+                let [rate, limit] = [rate_m3_s, limit_m3_s].map(|it| self.rate(*it));
+                let holes = [("rate", &*rate), ("limit", &*limit)];
+                of(&wrong.poured_too_fast, flask, &holes)
+            }
             What::BoiledOver {
                 flask,
                 volume_m3,
                 acid,
             } => {
                 let amount = self.amount(*volume_m3, *acid);
-                with(&wrong.boiled_over, &[("flask", flask), ("amount", &amount)])
+                of(&wrong.boiled_over, flask, &[("amount", &amount)])
             }
             What::Hot {
                 flask,
                 temperature_c,
             } => {
                 let temperature = self.temperature(*temperature_c);
-                with(
-                    &wrong.hot,
-                    &[("flask", flask), ("temperature", &temperature)],
-                )
+                of(&wrong.hot, flask, &[("temperature", &temperature)])
             }
             What::Spilt {
                 surface,
@@ -220,16 +242,21 @@ impl Texts {
             } => {
                 let template = if *broke { &wrong.broke } else { &wrong.dropped };
                 let speed = self.speed(*speed_m_s);
-                with(template, &[("flask", flask), ("speed", &speed)])
+                of(template, flask, &[("speed", &speed)])
             }
         }
     }
 
     /// Cause, danger and remedy of an incident. A danger that is in `dangers` was named before, and is not repeated.
-    fn more(&self, incident: &Incident, dangers: &mut BTreeSet<String>) -> Option<String> {
+    fn more(
+        &self,
+        attempt: &Attempt,
+        incident: &Incident,
+        dangers: &mut BTreeSet<String>,
+    ) -> Option<String> {
         let news = self.dangers(&incident.what).into_iter();
         let news = news.filter(|danger| dangers.insert(danger.clone()));
-        let said = self.cause(incident).into_iter().chain(news);
+        let said = self.cause(attempt, incident).into_iter().chain(news);
         said.chain(self.remedy(&incident.what))
             .reduce(|first, second| {
                 let two = [("first", first.as_str()), ("second", second.as_str())];
@@ -238,7 +265,7 @@ impl Texts {
     }
 
     /// The cause; `None` where the kind of incident names it already.
-    fn cause(&self, incident: &Incident) -> Option<String> {
+    fn cause(&self, attempt: &Attempt, incident: &Incident) -> Option<String> {
         let causes = &self.cause;
         let template = match (&incident.what, &incident.cause) {
             (What::WaterIntoAcid { .. } | What::PouredTooFast { .. }, Cause::Pouring { .. })
@@ -255,7 +282,7 @@ impl Texts {
             (_, Cause::Unknown) => &causes.unknown,
         };
         let flask = incident.cause.flask().map_or("", String::as_str);
-        Some(template.fill(&[("flask", flask)]))
+        Some(self.with_flasks(template, &attempt.glass, &[("flask", flask)], &[]))
     }
 
     /// Sentences about its dangers.
@@ -327,29 +354,38 @@ impl Texts {
                 Some(flask) => (&self.end.hottest, flask.as_str()),
                 None => (&self.end.hottest_outside, ""),
             };
-            let text = template.fill(&[("temperature", &temperature), ("flask", flask)]);
+            let text = self.with_flasks(
+                template,
+                &attempt.glass,
+                &[("flask", flask)],
+                &[("temperature", &temperature)],
+            );
             said.push((Some(hottest.t_s), text));
         }
         for (flask, content) in &ending.contents {
             let mut pours = attempt.pours.iter();
             if pours.any(|pour| pour.from == *flask || pour.into.as_ref() == Some(flask)) {
-                said.push((Some(ending.t_s), self.holds(flask, content)));
+                said.push((Some(ending.t_s), self.holds(attempt, flask, content)));
             }
         }
         said
     }
 
-    fn holds(&self, flask: &str, content: &Content) -> String {
+    fn holds(&self, attempt: &Attempt, flask: &str, content: &Content) -> String {
         let amount = self.amount(content.volume_m3, content.acid);
         let temperature = content.temperature_c.map(|it| self.temperature(it));
         let template = match temperature {
             Some(_) => &self.end.holds_at,
             None => &self.end.holds,
         };
-        template.fill(&[
-            ("flask", flask),
-            ("amount", &amount),
-            ("temperature", temperature.as_deref().unwrap_or("")),
-        ])
+        self.with_flasks(
+            template,
+            &attempt.glass,
+            &[("flask", flask)],
+            &[
+                ("amount", &amount),
+                ("temperature", temperature.as_deref().unwrap_or("")),
+            ],
+        )
     }
 }

@@ -8,8 +8,10 @@ use vitriol_run::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
+    /// Its title.
+    pub title: String,
     /// Its flasks.
     pub flasks: Vec<FlaskLine>,
     /// Whether there is acid with a tint, which is explained.

@@ -215,6 +215,7 @@ mod tests {
             t_s: 0.0,
             scene: String::new(),
             contents: Default::default(),
+            glass: Default::default(),
         };
         judge.advance(&Sight::default(), &[begun]);
         judge

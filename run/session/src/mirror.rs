@@ -96,7 +96,7 @@ impl Mirror {
 }
 
 fn title(info: &Info, instead: Option<&str>) -> String {
-    let mut title = format!("Vitriol: {}", info.scene);
+    let mut title = format!("Vitriol: {}", info.title);
     if let Some(coming) = &info.coming {
         title += &format!(", setting up {coming} …");
     }

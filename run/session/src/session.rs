@@ -249,7 +249,7 @@ impl Session {
         let rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();
         let sounds = Sounds::new(options.sound, options.plan.seed);
         let made_for = (gpu, &*benches.library, benches.eyes.extent);
-        let instructor = Instructor::new(options.console, made_for)?;
+        let instructor = Instructor::new(options.console, options.language, made_for)?;
         Ok(Self {
             benches,
             choices: Choices::new(decisions),

@@ -5,6 +5,8 @@
 //! flanged rims and the cylinder's foot are left out: they are not
 //! axisymmetric or never wetted.
 
+use serde::{Deserialize, Serialize};
+
 use super::profile::{Profile, ProfileError};
 
 /// Wall thickness, metres.
@@ -16,11 +18,55 @@ pub const BOROSILICATE: f64 = 2230.0;
 /// Density of stainless steel 1.4301 (EN 10088-1), kg/m³.
 pub const STAINLESS_STEEL: f64 = 7900.0;
 
+/// What kind of vessel a flask is: texts name it by that.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Vessel {
+    /// A beaker.
+    Beaker,
+    /// A measuring cylinder.
+    Cylinder,
+    /// A conical flask.
+    ConicalFlask,
+    /// A round-bottomed flask.
+    RoundFlask,
+    /// A laboratory bottle.
+    Bottle,
+    /// A funnel.
+    Funnel,
+    /// A tray.
+    Tray,
+    /// A cooking pot.
+    Pot,
+    /// A vessel of no such kind.
+    #[default]
+    Other,
+}
+
+impl Vessel {
+    /// All kinds.
+    pub const ALL: [Self; 9] = [
+        Self::Beaker,
+        Self::Cylinder,
+        Self::ConicalFlask,
+        Self::RoundFlask,
+        Self::Bottle,
+        Self::Funnel,
+        Self::Tray,
+        Self::Pot,
+        Self::Other,
+    ];
+}
+
 /// A vessel that a scene can name: outer dimensions in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glass {
     /// Name in scene files.
     pub name: &'static str,
+    /// Its kind.
+    pub vessel: Vessel,
     /// Density of the wall, kg/m³.
     pub density: f64,
     shape: Shape,
@@ -37,9 +83,14 @@ enum Shape {
     Bottle,
 }
 
-const fn glass(name: &'static str, shape: Shape, [diameter, neck, height]: [f64; 3]) -> Glass {
+const fn glass(
+    name: &'static str,
+    (vessel, shape): (Vessel, Shape),
+    [diameter, neck, height]: [f64; 3],
+) -> Glass {
     Glass {
         name,
+        vessel,
         density: BOROSILICATE,
         shape,
         diameter,
@@ -51,22 +102,58 @@ const fn glass(name: &'static str, shape: Shape, [diameter, neck, height]: [f64;
 /// All named vessels.
 pub const GLASSWARE: [Glass; 9] = [
     // ISO 3819, low form, 250, 400 and 600 mL.
-    glass("beaker-250", Shape::Cylinder, [0.070, 0.070, 0.095]),
-    glass("beaker-400", Shape::Cylinder, [0.080, 0.080, 0.110]),
-    glass("beaker-600", Shape::Cylinder, [0.090, 0.090, 0.125]),
+    glass(
+        "beaker-250",
+        (Vessel::Beaker, Shape::Cylinder),
+        [0.070, 0.070, 0.095],
+    ),
+    glass(
+        "beaker-400",
+        (Vessel::Beaker, Shape::Cylinder),
+        [0.080, 0.080, 0.110],
+    ),
+    glass(
+        "beaker-600",
+        (Vessel::Beaker, Shape::Cylinder),
+        [0.090, 0.090, 0.125],
+    ),
     // ISO 4788, tall form, 100 mL, without its foot.
-    glass("cylinder-100", Shape::Cylinder, [0.030, 0.030, 0.256]),
+    glass(
+        "cylinder-100",
+        (Vessel::Cylinder, Shape::Cylinder),
+        [0.030, 0.030, 0.256],
+    ),
     // ISO 1773, conical flask, narrow neck, 250 mL.
-    glass("erlenmeyer-250", Shape::Conical, [0.085, 0.034, 0.145]),
+    glass(
+        "erlenmeyer-250",
+        (Vessel::ConicalFlask, Shape::Conical),
+        [0.085, 0.034, 0.145],
+    ),
     // ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL.
-    glass("round-bottom-250", Shape::Round, [0.085, 0.034, 0.140]),
+    glass(
+        "round-bottom-250",
+        (Vessel::RoundFlask, Shape::Round),
+        [0.085, 0.034, 0.140],
+    ),
     // ISO 4796-1, laboratory bottles of 250 and 500 mL, with the neck within the thread of a GL 45 cap.
-    glass("bottle-250", Shape::Bottle, [0.070, 0.040, 0.138]),
-    glass("bottle-500", Shape::Bottle, [0.086, 0.040, 0.176]),
+    glass(
+        "bottle-250",
+        (Vessel::Bottle, Shape::Bottle),
+        [0.070, 0.040, 0.138],
+    ),
+    glass(
+        "bottle-500",
+        (Vessel::Bottle, Shape::Bottle),
+        [0.086, 0.040, 0.176],
+    ),
     // A common cooking pot, 16 cm by 10 cm inside: our choice.
     Glass {
         density: STAINLESS_STEEL,
-        ..glass("pot-2l", Shape::Cylinder, [0.164, 0.164, 0.102])
+        ..glass(
+            "pot-2l",
+            (Vessel::Pot, Shape::Cylinder),
+            [0.164, 0.164, 0.102],
+        )
     },
 ];
 

@@ -126,6 +126,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::flask::Profile;
+    use crate::flask::glassware::Vessel;
     use crate::surface_tension::GLASS;
 
     /// Particles 0 and 1 as (height in metres, membership); by slot, in the order of `slots`.
@@ -141,6 +142,7 @@ mod tests {
     fn glass() -> Flask {
         Flask {
             name: "glass".into(),
+            vessel: Vessel::default(),
             profile: Profile::new(&[[0.0, 0.03], [0.1, 0.03]], 0.002).unwrap(),
             mass: 0.1,
             stage_from_flask: Pose::IDENTITY,

@@ -3,6 +3,7 @@
 use super::error::Problem;
 use super::settings::Scale;
 use crate::fill;
+use crate::flask::glassware::Vessel;
 use crate::flask::{Profile, VolumeMap};
 use crate::pose::Pose;
 use glam::DVec3;
@@ -23,6 +24,8 @@ const MOST_NODES_IN_ALL: f64 = 4.0 * MOST_NODES;
 pub struct Flask {
     /// Name that liquids and tracks refer to.
     pub name: String,
+    /// What kind of vessel it is.
+    pub vessel: Vessel,
     /// Its shape, metres of the scene.
     pub profile: Profile,
     /// Mass of the empty vessel, kg.

@@ -15,7 +15,8 @@ use super::settings::{
 use super::tool::ToolEntry;
 use crate::chemistry::table::SolutionTable;
 use crate::fill;
-use crate::flask::{Profile, glassware};
+use crate::flask::Profile;
+use crate::flask::glassware::{self, Vessel};
 use crate::pose::Pose;
 use crate::surface_tension;
 use glam::{DQuat, DVec3, EulerRot};
@@ -56,6 +57,8 @@ pub(super) struct SceneFile {
 #[serde(deny_unknown_fields)]
 pub(super) struct FlaskEntry {
     name: String,
+    /// What kind of vessel own points are.
+    vessel: Option<Vessel>,
     /// A name of [`glass`], made larger by 1/length_scale.
     profile: Option<String>,
     /// Or its own (height, radius) points, metres of the scene.
@@ -99,7 +102,7 @@ impl FlaskEntry {
         if self.name.is_empty() {
             return Err(Problem::new(field("name"), "empty; give the flask a name"));
         }
-        let (profile, density) = match (&self.profile, &self.points) {
+        let (profile, density, vessel) = match (&self.profile, &self.points) {
             (Some(name), None) => named(name, &self, index, scale)?,
             (None, Some(points)) => {
                 let Some(wall) = self.wall else {
@@ -109,7 +112,8 @@ impl FlaskEntry {
                 let place = if wall > 0.0 { "points" } else { "wall" };
                 let profile = Profile::new(points, wall)
                     .map_err(|error| Problem::new(field(place), error))?;
-                (profile, self.density.unwrap_or(glassware::BOROSILICATE))
+                let density = self.density.unwrap_or(glassware::BOROSILICATE);
+                (profile, density, self.vessel.unwrap_or_default())
             }
             _ => {
                 let problem = "give either `profile` (a name) or `points` ([[height, radius], …])";
@@ -144,6 +148,7 @@ impl FlaskEntry {
         let flask = Flask {
             mass: profile.glass_volume() * density,
             name: self.name,
+            vessel,
             profile,
             stage_from_flask: Pose::new(
                 DVec3::from_array(self.position).as_vec3(),
@@ -164,9 +169,10 @@ fn named(
     entry: &FlaskEntry,
     index: usize,
     scale: &Scale,
-) -> Result<(Profile, f64), Problem> {
+) -> Result<(Profile, f64, Vessel), Problem> {
     let field = |name: &str| format!("flask[{index}].{name}");
     for (key, present) in [
+        ("vessel", entry.vessel.is_some()),
         ("wall", entry.wall.is_some()),
         ("density", entry.density.is_some()),
     ] {
@@ -189,7 +195,7 @@ fn named(
     let profile = glass
         .profile(1.0 / scale.length_scale)
         .map_err(|error| Problem::new(field("profile"), error))?;
-    Ok((profile, glass.density))
+    Ok((profile, glass.density, glass.vessel))
 }
 
 impl LiquidEntry {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::{Progress, Verdict as LessonVerdict};
-use vitriol_lesson::{Attempt, Score, Texts};
+use vitriol_lesson::{Attempt, Event, Score, Texts};
 use vitriol_run::progress::Runs;
 use vitriol_run::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
 use vitriol_xr::track::{Track, TrackSource};
@@ -109,7 +109,7 @@ impl Verified {
         let asked = truncated.then_some("--accept-truncated");
         let differs = differences(&metadata, scene, Some(&outcome.device), asked.as_slice());
         let judged = expected.lesson.is_none() || progress == outcome.progress;
-        let to_the_bit = events == outcome.events && judged;
+        let to_the_bit = Event::are_same(&events, &outcome.events) && judged;
         let retold = |said: &[Progress]| {
             let lesson = expected.lesson.as_ref();
             let retold = lesson.map(|(lesson, mode)| LessonVerdict::retold(lesson, *mode, said));

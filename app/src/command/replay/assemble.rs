@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use vitriol_lesson::{Attempt, Boiling, layered};
+use vitriol_lesson::{Attempt, Boiling, Language, layered};
 use vitriol_run::{
     Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample, boiling,
 };
@@ -91,15 +91,18 @@ pub(super) fn assemble(
         lesson: Vec::new(),
         scenes_before: observations.scenes_before,
         attempts,
-        instructor: said(&outcome.instructions)?,
+        instructor: said(&outcome.instructions, args.language)?,
         score: Vec::new(),
         series: observations.samples,
     })
 }
 
 /// What an instructor did, in sentences.
-fn said(instructions: &[(f64, Action)]) -> Result<Vec<InstructorStatement>, Failure> {
-    let words = Texts::english()?.instructor;
+fn said(
+    instructions: &[(f64, Action)],
+    language: Language,
+) -> Result<Vec<InstructorStatement>, Failure> {
+    let words = Texts::of(language)?.instructor;
     let of = |(t_s, instruction): &(f64, Action)| InstructorStatement {
         t_s: *t_s,
         text: words.instruction(instruction),
@@ -151,6 +154,8 @@ fn command_line(
         CameraName::Fixed => Some("fixed".to_owned()),
         CameraName::Head => Some("head".to_owned()),
     };
+    let language = args.language;
+    let language = (language != Language::default()).then(|| language.code().to_owned());
     let options = [
         ("scene", args.scene.as_deref().map(quoted)),
         ("preset", Some(preset.name().to_owned())),
@@ -163,6 +168,7 @@ fn command_line(
         ("filter", args.filter.map(|it| it.name().to_owned())),
         ("tint", args.drawn.tint.map(|it| it.name().to_owned())),
         ("room", args.drawn.room.map(|it| it.name().to_owned())),
+        ("language", language),
         ("lesson", args.judge.lesson.as_deref().map(quoted)),
         ("mode", args.judge.mode.map(|it| it.name().to_owned())),
     ];

@@ -31,7 +31,9 @@ impl ReplayConsole {
             )
             .input();
         }
-        let serving = args.live.then(|| Serving::begin(&args.console, false));
+        let serving = args
+            .live
+            .then(|| Serving::begin(&args.console, args.language, false));
         let serving = serving.transpose()?;
         if let Some(serving) = &serving {
             serving.invite(format)?;

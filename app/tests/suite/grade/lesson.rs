@@ -271,7 +271,10 @@ fn replayed(track: &Path, found: &[Progress], more: &[&str]) -> Result<serde_jso
         Ok(Box::new(toy))
     })?;
     let page = fs::read_to_string(out.path().join("report.html")).unwrap();
-    assert_eq!(page.contains("Lesson dilute, free"), !more.is_empty());
+    assert_eq!(
+        page.contains("Lesson: Diluting sulfuric acid, free"),
+        !more.is_empty()
+    );
     let report = fs::read(out.path().join("report.json")).unwrap();
     Ok(serde_json::from_slice(&report).unwrap())
 }

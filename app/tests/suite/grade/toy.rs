@@ -53,6 +53,7 @@ pub(super) fn events(spilt_ml: f64) -> Vec<Event> {
         t_s: 0.0,
         scene: SCENE.into(),
         contents: BTreeMap::new(),
+        glass: BTreeMap::new(),
     };
     let ended = Event::Ended(Ending {
         t_s: 0.5,

@@ -212,6 +212,7 @@ pub(super) fn events(t: f64) -> Vec<Event> {
             t_s: 0.0,
             scene,
             contents,
+            glass: BTreeMap::new(),
         },
         Event::Incident(incident),
         Event::Ended(Ending {

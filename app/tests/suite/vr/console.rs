@@ -7,6 +7,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use vitriol_console::Hub;
+use vitriol_lesson::{Language, Texts};
 use vitriol_live::{Console, start, student};
 use vitriol_run::Action;
 use vitriol_session::session::Options;
@@ -112,7 +113,8 @@ impl Trouble for Instructed {
 /// A hub on this computer, a browser in it, and a session's end of it.
 fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options)> {
     let hub = start(SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0), false).unwrap();
-    let told = student(Some("Ada"), true);
+    let texts = Texts::english().unwrap();
+    let told = student((Some("Ada"), &texts), true);
     let port = hub.student(told.clone()).unwrap().unwrap();
     let mut tab = Tab::new()?;
     tab.go(&hub.invite().unwrap().address);
@@ -121,6 +123,7 @@ fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options
     options.console = Some(Console {
         port,
         student: told,
+        language: Language::En,
     });
     let instructed = Instructed {
         tab: tab.into(),

@@ -232,6 +232,9 @@ mod long {
             [true, true, false, true]
         );
         assert!(found.iter().all(|it| it.1), "{found:?}");
+        // While the flask pours none lies over it and its stream.
+        let pours = frame(4.2);
+        assert!(with.pictures[&pours] == without.pictures[&pours]);
         // After the last it is gone.
         assert_eq!(with.pictures[&FRAMES], without.pictures[&FRAMES]);
 

@@ -7,7 +7,7 @@ use crate::vr::panel::{place_of, press_from};
 use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_run::Action;
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::{self, CHOICES};
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::handle::middles;
@@ -181,7 +181,10 @@ fn either_arm_reaches_all() {
     for choice in CHOICES {
         let scene = Scene::builtin(choice.scene).unwrap();
         let scale = scene.scale.length_scale as f32;
-        let free = scene.flasks.iter().filter(|flask| !flask.fixed);
+        // The emergency leaves the acid's beaker where it stands.
+        let left = |flask: &str| (choice.scene, flask) == ("acid-on-glove", "acid");
+        let free = scene.flasks.iter();
+        let free = free.filter(|flask| !flask.fixed && !left(&flask.name));
         let flasks = free.map(|flask| {
             let half = 0.5 * flask.profile.rim_height();
             let radius = scale * flask.profile.outer_radius_at(half) as f32;
@@ -205,7 +208,8 @@ fn either_arm_reaches_all() {
 fn either_hand_presses_each_button_from_its_place() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes = choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes: Vec<Decision> = scenes.collect();
     let all = [
         &scenes[..],
         &[

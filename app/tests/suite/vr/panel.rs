@@ -8,7 +8,7 @@ use vitriol_console::MESSAGE;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson::Tone;
 use vitriol_run::Action;
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::on_panel;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::info::{Effort, FlaskLine, Happened, Info, Lying, Told};
@@ -27,9 +27,10 @@ fn info() -> Info {
     };
     Info {
         scene: "water-into-acid".into(),
+        title: "Water into acid".into(),
         flasks: vec![
-            flask("source", Some(20), Some(0)),
-            flask("target", Some(117), Some(71)),
+            flask("Beaker with water", Some(20), Some(0)),
+            flask("Beaker with 98 % acid", Some(117), Some(71)),
         ],
         acid: true,
         spilt: Lying::of(12.3, 0.4),
@@ -146,7 +147,8 @@ fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     // What would lose the user's work takes a second.
-    let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes = on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes: Vec<Decision> = scenes.collect();
     let others = [
         Decision::Act(Action::Start(None)),
         Decision::Toggle,

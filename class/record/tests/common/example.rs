@@ -87,6 +87,7 @@ pub fn attempt() -> Attempt {
         begun_s: 2.0,
         scene: "water-into-acid".into(),
         contents: contents.clone(),
+        glass: BTreeMap::new(),
         pours: vec![Pour {
             t_s: 3.0,
             until_s: 4.5,

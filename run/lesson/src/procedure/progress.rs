@@ -284,11 +284,10 @@ impl Texts {
                 ("limit", &self.volume(*limit_m3)),
             ]),
             Why::TooHot {
-                flask,
                 temperature_c,
                 limit_c,
+                ..
             } => texts.too_hot.fill(&[
-                ("flask", flask),
                 ("temperature", &self.temperature(*temperature_c)),
                 ("limit", &self.temperature(*limit_c)),
             ]),

@@ -84,6 +84,7 @@ impl Run {
             t_s: 10.0,
             scene: "bench".to_owned(),
             contents: Default::default(),
+            glass: Default::default(),
         };
         run.said = run.procedure.advance(&sight(10.0), &[begun]);
         run

@@ -69,35 +69,35 @@ fn the_wrong_order_is_told_with_its_causes() {
         bad,
         [
             (
-                "Water was poured into 96 % acid, the wrong order: 25 mL in 3.1 s, at most 12 mL/s, into “target”.",
+                "Water was poured into 96 % acid, the wrong order: 25 mL in 3.1 s, at most 12 mL/s, into the beaker with 98 % acid.",
                 "Water floats on the acid, boils at once where they meet, and throws acid out.",
             ),
             (
-                "Acid and water came together too fast in “target”: 12 mL/s, where 5.0 mL/s is safe.",
+                "Acid and water came together too fast in the beaker with 98 % acid: 12 mL/s, where 5.0 mL/s is safe.",
                 "The heat comes faster than the liquid can spread it.",
             ),
             (
-                "Liquid in “target” became 134 °C hot.",
-                "Acid and water gave off their heat in “target”. \
+                "Liquid in the beaker with 98 % acid became 134 °C hot.",
+                "Acid and water gave off their heat in the beaker with 98 % acid. \
                  Such liquid burns skin at once, and a thin glove does not help.",
             ),
             (
-                "“target” boiled over and threw out: 3.4 mL of 71 % acid.",
+                "The beaker with 98 % acid boiled over and threw out: 3.4 mL of 71 % acid.",
                 "Acid as strong as this burns skin and blinds eyes: 15 % is enough.",
             ),
             (
                 "On the skin of the right hand: 0.21 mL of 68 % acid.",
-                "The liquid in “target” was boiling. Rinse at once, with much water.",
+                "The liquid in the beaker with 98 % acid was boiling. Rinse at once, with much water.",
             ),
             (
                 "On the goggles: 0.047 mL of 68 % acid.",
-                "The liquid in “target” was boiling. What was worn there kept it off: take it off, and rinse.",
+                "The liquid in the beaker with 98 % acid was boiling. What was worn there kept it off: take it off, and rinse.",
             ),
             (
                 "Spilt on the bench: 2.6 mL of 71 % acid.",
-                "The liquid in “target” was boiling. Wipe it up before someone touches it.",
+                "The liquid in the beaker with 98 % acid was boiling. Wipe it up before someone touches it.",
             ),
-            ("“source” struck at 3.8 m/s and broke.", ""),
+            ("The beaker with water struck at 3.8 m/s and broke.", ""),
         ]
     );
     // Each danger is named once: at the first incident that has it. In the order of the film, and the pour is not described twice.
@@ -110,32 +110,84 @@ fn the_wrong_order_is_told_with_its_causes() {
     assert!(!said.iter().any(|it| it.tone == Tone::Good), "{said:?}");
 }
 
-/// That moving layers mixed them is said of what boiled over, in each language.
+/// That moving layers mixed them is said of what boiled over.
 #[test]
 fn layers_that_were_moved_are_a_cause_in_words() {
     let [mut attempt, _] = attempts();
     for incident in &mut attempt.incidents {
         if matches!(incident.what, What::BoiledOver { .. }) {
             incident.cause = Cause::Swirling {
-                flask: "layers".into(),
+                flask: "target".into(),
             };
         }
     }
-    for language in Language::ALL {
-        let texts = Texts::of(language).unwrap();
-        let score = Score::of(&attempt, &Rubric::default(), &texts);
-        let said = sentences(&attempt, &score, &texts);
-        let more = said.iter().filter_map(|it| it.more.as_deref());
-        assert_eq!(
-            more.filter(|it| it.contains("layers")).count(),
-            1,
-            "{language}"
-        );
-    }
-    let words = "Acid and water lay on one another in “layers”. Moving it mixed them, and all of their heat came at once.";
+    let words = "Acid and water lay on one another in the beaker with 98 % acid. Moving it mixed them, and all of their heat came at once.";
     let said = said(&attempt);
     let mut more = said.iter().filter_map(|it| it.more.as_deref());
     assert!(more.any(|it| it.starts_with(words)), "{said:?}");
+}
+
+/// A title says what was done, and nothing where acid and water stayed apart. The wrong order comes first.
+#[test]
+fn a_title_says_what_was_done() {
+    let [wrong, right] = attempts();
+    let wrong_order = "Water was poured into concentrated acid";
+    let done = |attempts: &[Attempt]| TEXTS.done(attempts);
+    assert_eq!(
+        done(std::slice::from_ref(&wrong)).as_deref(),
+        Some(wrong_order)
+    );
+    assert_eq!(
+        done(std::slice::from_ref(&right)).as_deref(),
+        Some("Acid was poured into water")
+    );
+    assert_eq!(done(&[right, wrong]).as_deref(), Some(wrong_order));
+    assert_eq!(done(&[untouched()]), None);
+}
+
+/// Whatever is said of these attempts, in each language, has no name of a flask from the scene's file.
+#[test]
+fn no_sentence_has_a_flasks_name_from_its_file() {
+    for language in Language::ALL {
+        let texts = Texts::of(language).unwrap();
+        for attempt in attempts() {
+            let score = Score::of(&attempt, &Rubric::default(), &texts);
+            let evidence = score.lines.iter().flat_map(|line| &line.evidence);
+            let evidence: Vec<String> = evidence.map(|it| it.text.clone()).collect();
+            let said = sentences(&attempt, &score, &texts).into_iter();
+            let said = said.flat_map(|it| [Some(it.text), it.more]).flatten();
+            for text in said.chain(evidence) {
+                let named = ["source", "target", "{", "}"];
+                assert!(
+                    !named.iter().any(|it| text.contains(it)),
+                    "{language}: {text}"
+                );
+            }
+        }
+    }
+}
+
+/// A recording of an older version, which does not say what the flasks are, is the same as its replay; another attempt is not.
+#[test]
+fn an_older_recording_is_the_same_without_its_glass() {
+    let found: Vec<Event> = serde_json::from_str(include_str!("../events.json")).unwrap();
+    let mut recorded = found.clone();
+    for event in &mut recorded {
+        if let Event::Begun { glass, .. } = event {
+            glass.clear();
+        }
+    }
+    assert!(Event::are_same(&found, &found) && Event::are_same(&recorded, &found));
+    // But not the other way round, nor where an event lacks.
+    assert!(!Event::are_same(&found, &recorded));
+    assert!(!Event::are_same(&recorded, &found[1..]));
+    // And it is told of in words that name no file.
+    let [attempt, _]: [Attempt; 2] = Attempt::all(recorded).try_into().unwrap();
+    assert!(
+        said(&attempt)
+            .iter()
+            .any(|it| it.text.starts_with("The vessel boiled over"))
+    );
 }
 
 /// Acid and water first meet where the first pour that mixes them arrives.
@@ -170,7 +222,7 @@ fn what_went_well_is_told_too() {
     assert_eq!(
         of(Tone::Good).collect::<Vec<_>>(),
         [
-            "Acid was poured into water, the right order: 20 mL of 98 % acid in 6.2 s, at most 4.2 mL/s, from “source” into “target”.",
+            "Acid was poured into water, the right order: 20 mL of 98 % acid in 6.2 s, at most 4.2 mL/s, from the beaker with 98 % acid into the beaker with water.",
             "Acid and water came together slowly: at most 4.2 mL/s.",
             "What was mixed became 55 °C at the most.",
             "Nothing boiled over.",
@@ -181,8 +233,8 @@ fn what_went_well_is_told_too() {
     assert_eq!(
         of(Tone::Plain).collect::<Vec<_>>(),
         [
-            "The hottest drop had 91 °C, in “target”.",
-            "At the end “target” holds: 180 mL of 19 % acid, at 55 °C.",
+            "The hottest drop had 91 °C, in the beaker with water.",
+            "At the end the beaker with water holds: 180 mL of 19 % acid, at 55 °C.",
         ]
     );
     assert_eq!(of(Tone::Bad).count(), 1);
@@ -295,7 +347,7 @@ fn where_no_heat_is_modelled_none_is_judged() {
     assert_eq!(said.last().unwrap().tone, Tone::Good);
     assert!(
         said.iter()
-            .any(|it| it.text == "At the end “target” holds: 180 mL of 19 % acid.")
+            .any(|it| it.text == "At the end the beaker with water holds: 180 mL of 19 % acid.")
     );
 }
 
@@ -332,7 +384,7 @@ fn hot_liquid_on_skin_says_how_long_it_takes() {
     assert_eq!(
         bad.more.as_deref(),
         Some(
-            "It happened while “source” was poured from. Acid as strong as this irritates skin and eyes. \
+            "It happened while the beaker with 98 % acid was poured from. Acid as strong as this irritates skin and eyes. \
              Skin in such liquid is burnt through after 6.0 s. Rinse at once, with much water."
         )
     );

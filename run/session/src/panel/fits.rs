@@ -8,7 +8,7 @@ use super::PANEL;
 use super::lesson::label;
 use super::view::{BESIDE, scene_text, style};
 use crate::menu::END;
-use vitriol_run::choices::CHOICES;
+use vitriol_run::choices::{CHOICES, on_panel};
 use vitriol_run::texts::{PanelTexts, Texts};
 
 /// Half of the panel without its margins: what buttons, notes and thermometers have, pixels.
@@ -84,8 +84,8 @@ fn each_scenes_button_has_its_text_in_two_lines() {
     let room = (COLUMN - gaps) / BESIDE as f32 - 2.0 * PADDING;
     for language in Language::ALL {
         let words = Texts::of(language).unwrap().panel;
-        for choice in &CHOICES {
-            let text = scene_text(choice, &words);
+        for choice in on_panel() {
+            let text = scene_text(choice, &words, false);
             assert_eq!(text.lines().count(), 2, "{language}: {text:?}");
             let wide = width(&context, &text, SIZE);
             assert!(wide <= room, "{language}: {text:?} {wide} of {room}");
@@ -165,7 +165,8 @@ fn each_announcement_has_a_line() {
         let texts = Texts::of(language).unwrap();
         let words = &texts.instructor;
         let scenes = CHOICES.iter();
-        let scenes = scenes.map(|it| words.scene(texts.panel.scene(it.scene)));
+        let titles = vitriol_lesson::Texts::of(language).unwrap();
+        let scenes = scenes.map(|it| words.scene(titles.scene(it.scene)));
         let said = [
             words.start.clone(),
             words.held.clone(),

@@ -99,7 +99,8 @@ mod tests {
         };
         Info {
             scene: "acid-into-water".into(),
-            flasks: vec![flask("source"), flask("target")],
+            title: "Acid into water".into(),
+            flasks: vec![flask("Beaker with 98 % acid"), flask("Beaker with water")],
             acid: true,
             burns: [true, false, false],
             lesson: Some(lesson),
@@ -263,12 +264,14 @@ mod tests {
         };
         let shown = longest(Language::En);
         assert!(has(&shown, "H   Hint") && has(&shown, "F   I am done"));
-        assert!(has(&shown, "What happened") && !has(&shown, "1 ✔ acid"));
+        assert!(has(&shown, "What happened") && !has(&shown, "1 acid"));
         let over = Shown {
             acts: Vec::new(),
             ..shown.clone()
         };
-        assert!(has(&over, "1 ✔ acid") && !has(&over, "H   Hint"));
+        // Nor does it tell which order is correct, where the next lesson asks.
+        assert!(has(&over, "1 acid") && !has(&over, "H   Hint"));
+        assert!(!has(&over, "2 ✖") && !has(&over, "1 ✔"));
         assert!(has(&shown, "71 % acid") && has(&shown, "acid on your left hand"));
         let quiet = Shown {
             quiet: true,

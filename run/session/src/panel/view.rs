@@ -16,7 +16,7 @@ use super::lesson;
 use crate::decision::Decision;
 use crate::info::{FlaskLine, Happened, Info, burns_text};
 use crate::menu;
-use vitriol_run::choices::{self, CHOICES, Choice, Order};
+use vitriol_run::choices::{self, Choice, Order};
 use vitriol_run::texts::PanelTexts;
 
 const HEADING: f32 = 34.0;
@@ -179,7 +179,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
 }
 
 fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
-    ui.heading(&info.scene);
+    ui.heading(&info.title);
     ui.add_space(6.0);
     // A user who is examined is told nothing that the lesson is judged by.
     let quiet = info.lesson.as_ref().is_some_and(|it| it.quiet);
@@ -296,9 +296,11 @@ fn legend(ui: &mut Ui, words: &PanelTexts) {
     ui.label(RichText::new(&words.tints).color(FAINT));
 }
 
-/// What stands on a scene's button. A sign says the order by its shape, since its word has no room there.
-pub(super) fn scene_text(choice: &Choice, words: &PanelTexts) -> String {
+/// What stands on a scene's button. A sign says the order by its shape, since its word has no room there; but not to a student whose
+/// lesson asks for it.
+pub(super) fn scene_text(choice: &Choice, words: &PanelTexts, in_lesson: bool) -> String {
     let sign = match choice.order {
+        _ if in_lesson => "",
         Order::Correct => " ✔",
         Order::Incorrect => " ✖",
         Order::Neither => "",
@@ -325,14 +327,14 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     let asks = shown.into_iter().flat_map(lesson::asks);
     let asks: Vec<_> = asks.collect();
     // In a lesson its own buttons stand in place of the scenes'.
-    let scenes = if asks.is_empty() { &CHOICES[..] } else { &[] };
+    let offers = asks.is_empty();
     for (text, on, decision) in asks {
         ui.add_enabled_ui(on, |ui| button(ui, (text, LOW), false, decision));
     }
-    if !scenes.is_empty() {
+    if offers {
         ui.columns(BESIDE, |columns| {
-            for (at, choice) in scenes.iter().enumerate() {
-                let text = scene_text(choice, words);
+            for (at, choice) in choices::on_panel().enumerate() {
+                let text = scene_text(choice, words, shown.is_some());
                 let decision = Decision::Act(Action::Scene(choice.scene.into()));
                 let chosen = info.scene == choice.scene;
                 button(&mut columns[at % BESIDE], (text, TALL), chosen, decision);
@@ -342,7 +344,7 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     let key = |key: char| key.to_ascii_uppercase();
     let start = format!("{}   {}", key(menu::START), words.start);
     button(ui, (start, LOW), false, Decision::Act(Action::Start(None)));
-    if !scenes.is_empty() {
+    if offers {
         // Always in its place, so that the others stay in theirs.
         let other = format!("{}   {}", key(menu::TOGGLE), words.other_order);
         let on = choices::counterpart(&info.scene).is_some();

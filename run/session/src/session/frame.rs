@@ -458,11 +458,11 @@ impl Session {
         let (bench, run) = (&self.benches.current, &self.run);
         let ends_told = ends && self.guide.tells(run);
         let happened = (self.summary).shown(&self.texts.summary, run, ends_told);
-        let scene = run.world.scene();
-        let recorded = run.recorded();
+        let (scene, texts, recorded) = (run.world.scene(), self.summary.texts(), run.recorded());
         Info {
             scene: run.scene().to_owned(),
-            flasks: (self.readings).lines(scene, |flask| run.world.is_broken(flask)),
+            title: texts.scene(run.scene()).to_owned(),
+            flasks: (self.readings).lines(scene, texts, |flask| run.world.is_broken(flask)),
             acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
             spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
             heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
@@ -474,7 +474,7 @@ impl Session {
             unwritten: recorded.map_or(0, |state| state.unwritten),
             missed: self.counts.skipped,
             effort: self.pacing.effort(bench),
-            coming: self.benches.coming().map(Into::into),
+            coming: self.benches.coming().map(|it| texts.scene(it).to_owned()),
             holding: (self.choices.holding(self.shown_at()))
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
             ends,

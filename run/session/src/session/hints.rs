@@ -13,6 +13,10 @@ use crate::sign::Sign;
 use crate::sign::drawing::Pictogram;
 use crate::sign::place::{Stands, spot};
 
+/// Cosine of the tilt from which on a held flask pours, and no sign is shown: 45°. A beaker of 250 mL that is filled to two thirds pours
+/// from there on.
+const TILTED: f32 = 0.707;
+
 /// Shows a first user the next action as a sign, until each has been done once.
 pub(super) struct Hints {
     minute: FirstMinute,
@@ -77,11 +81,16 @@ impl Hints {
         let Some(sign) = &mut self.sign else {
             return;
         };
-        self.minute.update(&handled(world), time);
+        let handled = handled(world);
+        self.minute.update(&handled, time);
         let flasks = stand(world, &self.millilitres);
         let can_pour = flasks.iter().filter(|it| !it.broken).count() > 1;
         let next = self.minute.next(can_pour);
-        let (Some(lesson), Some(seen), false) = (next, seen, self.minute.waits()) else {
+        // It would lie over the stream, and over the flask that is looked at.
+        let in_hand = self.minute.flask().and_then(|it| handled.get(it));
+        let pours = in_hand.is_some_and(|it| it.held && it.upright < TILTED);
+        let waits = self.minute.waits() || pours;
+        let (Some(lesson), Some(seen), false) = (next, seen, waits) else {
             sign.hide();
             return;
         };

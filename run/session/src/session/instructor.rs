@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Said, State, Step, Student, Text};
 use vitriol_gpu::{Gpu, Image};
-use vitriol_lesson::{Event, Texts};
+use vitriol_lesson::{Event, Language, Texts};
 use vitriol_run::{Action, Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -70,12 +70,13 @@ pub(super) struct Instructor {
 }
 
 impl Instructor {
-    /// Of a session with that console, or with none, whose pictures have `eye` pixels.
+    /// Of a session with that console, or with none, which is told in `language`, and whose pictures have `eye` pixels.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
     pub fn new(
         console: Option<Console>,
+        language: Language,
         (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
     ) -> Result<Self, Failure> {
         // Now, and not when somebody looks: a pipeline takes longer than a frame.
@@ -84,7 +85,7 @@ impl Instructor {
         Ok(Self {
             view: view.transpose()?,
             console,
-            texts: Texts::english().other()?,
+            texts: Texts::of(language).other()?,
             controls: Controls::default(),
             done: 0,
             said: None,
@@ -97,7 +98,7 @@ impl Instructor {
     /// Orders since the last call, each with its number and the decision that it asks for; `None` where this program cannot carry it out,
     /// which the instructor sees as not done.
     pub fn orders(&self) -> Vec<(u64, Option<Decision>)> {
-        let Some(Console { port, student }) = &self.console else {
+        let Some(Console { port, student, .. }) = &self.console else {
             return Vec::new();
         };
         let orders = port.commands().into_iter();
@@ -202,14 +203,13 @@ impl Instructor {
 
     fn state(&self, now: &Now<'_>) -> State {
         let (name, scene) = now.scene;
-        let title = choices::of(name);
         let all = &self.incidents.1;
         // The last ones are shown.
         let lately = all.iter().skip(all.len().saturating_sub(32));
         State {
             frame: now.frame,
             time_s: Some(now.time),
-            scene: Text::clipped(title.map_or(name, |choice| choice.title)),
+            scene: Text::clipped(self.texts.scene(name)),
             choice: choices::index(name),
             done: self.done,
             controls: Controls {
@@ -221,6 +221,7 @@ impl Instructor {
             hints: now.hints.clone(),
             readings: readings(
                 scene,
+                &self.texts,
                 &self.flasks,
                 [now.spilt.bench, now.spilt.floor].map(|ml| 1e-6 * ml),
             ),
@@ -292,6 +293,7 @@ fn asked(command: Command, student: &Student) -> Option<Decision> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use vitriol_live::student;
@@ -299,10 +301,11 @@ mod tests {
     /// In a session the console can ask for the other order, and is told which scenes have one; in a replay none can be asked for.
     #[test]
     fn the_other_order_can_be_asked_for() {
-        let session = student(None, true);
+        let texts = Texts::english().unwrap();
+        let session = student((None, &texts), true);
         let toggle = Command::Toggle {};
         assert_eq!(asked(toggle.clone(), &session), Some(Decision::Toggle));
-        assert_eq!(asked(toggle, &student(None, false)), None);
+        assert_eq!(asked(toggle, &student((None, &texts), false)), None);
         for (choice, told) in CHOICES.iter().zip(session.choices.iter()) {
             let other = told.counterpart.and_then(|at| CHOICES.get(usize::from(at)));
             let other = other.map(|other| other.scene);

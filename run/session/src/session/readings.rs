@@ -1,6 +1,7 @@
 //! Temperature and acid of each flask's liquid, as the panel shows them.
 
 use glam::Vec3;
+use vitriol_lesson::{Glass, Texts};
 use vitriol_run::scenery::has_acid;
 use vitriol_sim::scene::{Flask, Scene};
 use vitriol_sim::solver::{Census, Held};
@@ -35,13 +36,19 @@ impl Readings {
 
     /// The panel's lines for a scene's flasks. One that hangs upside down, a funnel, has none: it holds nothing
     /// for long.
-    pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
+    pub fn lines(
+        &self,
+        scene: &Scene,
+        texts: &Texts,
+        is_broken: impl Fn(usize) -> bool,
+    ) -> Vec<FlaskLine> {
         let acid = has_acid(scene);
+        let glassware = Glass::all(scene);
         let line = |(index, flask): (usize, &Flask)| {
             let reading = self.last.get(index);
             let reading = reading.filter(|reading| reading.temperature.is_some());
             FlaskLine {
-                name: flask.name.clone(),
+                name: texts.flask(&glassware, &flask.name),
                 broken: is_broken(index),
                 temperature: reading
                     .and_then(|reading| reading.temperature)
@@ -78,30 +85,32 @@ mod tests {
     #[test]
     fn each_flask_has_a_line_with_what_was_read_in_it() {
         let mut scene = Scene::builtin("water-into-acid").unwrap();
-        let names: Vec<_> = scene.flasks.iter().map(|it| it.name.clone()).collect();
+        let names = ["Beaker with water", "Beaker with 98\u{a0}% acid"];
+        let texts = Texts::english().unwrap();
         let mut readings = Readings::default();
-        let lines = readings.lines(&scene, |_| false);
+        let lines = readings.lines(&scene, &texts, |_| false);
         assert_eq!(lines.len(), names.len());
+        assert_eq!([0, 1].map(|at| lines[at].name.as_str()), names);
         assert_eq!((lines[0].temperature, lines[0].acid), (None, None));
         // An empty flask has no temperature.
         readings.last = vec![reading(7, 99.6, 0.956), reading(0, 0.0, 0.0)];
-        let lines = readings.lines(&scene, |_| false);
+        let lines = readings.lines(&scene, &texts, |_| false);
         assert_eq!((lines[0].temperature, lines[0].acid), (Some(100), Some(96)));
         assert_eq!((lines[1].temperature, lines[1].acid), (None, None));
         // Without the first, the second's line is still the second's.
         scene.flasks[0].stage_from_flask.orientation = Quat::from_rotation_x(3.0);
         readings.last[1] = reading(7, 20.4, 0.0);
-        let lines = readings.lines(&scene, |_| false);
+        let lines = readings.lines(&scene, &texts, |_| false);
         assert_eq!(
-            (&lines[0].name, lines[0].temperature),
-            (&names[1], Some(20))
+            (lines[0].name.as_str(), lines[0].temperature),
+            (names[1], Some(20))
         );
         assert_eq!((lines.len(), lines[0].acid), (names.len() - 1, Some(0)));
         // Where there is no acid, none is shown.
         for liquid in &mut scene.liquids {
             liquid.acid_fraction = 0.0;
         }
-        let lines = readings.lines(&scene, |flask| flask == 1);
+        let lines = readings.lines(&scene, &texts, |flask| flask == 1);
         assert_eq!((lines[0].acid, lines[0].broken), (None, true));
     }
 }

@@ -34,6 +34,11 @@ impl Summary {
         })
     }
 
+    /// The texts that it is made of.
+    pub fn texts(&self) -> &Texts {
+        &self.texts
+    }
+
     /// Asks for the summary, or takes that back.
     pub fn toggle(&mut self) {
         self.asked = !self.asked;

@@ -34,7 +34,7 @@ impl Session {
     fn follow(&mut self, action: Action) -> Option<String> {
         let words = &self.texts.instructor;
         let said = match &action {
-            Action::Scene(name) => words.scene(self.texts.panel.scene(name)),
+            Action::Scene(name) => words.scene(self.summary.texts().scene(name)),
             Action::Start(_) => words.start.clone(),
             action => words.instruction(action),
         };

@@ -147,6 +147,16 @@ fn malformed_scenes_name_file_field_and_remedy() {
         ),
         ("wall = 0.002\n", "", &["flask[1].wall", "missing"]),
         (
+            "wall = 0.002",
+            "wall = 0.002\nvessel = \"jar\"",
+            &["unknown variant `jar`", "`bottle`"],
+        ),
+        (
+            "name = \"a\"",
+            "name = \"a\"\nvessel = \"bottle\"",
+            &["flask[0].vessel", "has its own"],
+        ),
+        (
             "[0.2, 0.5, 0.0]",
             "[0.06, 0.5, 0.0]",
             &["flask[1].position", "overlaps", "move them apart"],

@@ -362,7 +362,7 @@ fn why_is_said_in_each_language() {
     };
     assert_eq!(
         plain(&hot),
-        "“b” became 72 °C hot; it was to stay below 60 °C."
+        "The liquid became 72 °C hot; it was to stay below 60 °C."
     );
     let sash = Why::SashOpen {
         height_m: 0.45,

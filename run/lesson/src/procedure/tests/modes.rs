@@ -167,6 +167,7 @@ fn it_begins_again_with_its_scene() {
         t_s: run.t,
         scene: "bench".to_owned(),
         contents: Default::default(),
+        glass: Default::default(),
     };
     let from = run.said.len();
     run.hear(&[ended(run.t), begun]);
@@ -190,6 +191,7 @@ fn it_begins_again_with_its_scene() {
         t_s: run.t,
         scene: "bench".to_owned(),
         contents: Default::default(),
+        glass: Default::default(),
     };
     run.hear(&[begun]);
     run.wait(2.0);

@@ -113,6 +113,7 @@ fn questions_are_asked_again_from_the_start() {
         t_s: run.t,
         scene: "bench".to_owned(),
         contents: Default::default(),
+        glass: Default::default(),
     };
     let first = run.procedure.verdict();
     run.hear(&[begun]);

@@ -49,6 +49,7 @@ fn what_was_said_comes_to_what_was_judged() {
             t_s: run.t,
             scene: "bench".to_owned(),
             contents: Default::default(),
+            glass: Default::default(),
         };
         run.hear(&[begun]);
         run.look(STEP, &|sight| sight.flasks[0].held = true);
