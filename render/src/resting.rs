@@ -7,7 +7,7 @@ use vitriol_shaders::layout;
 use crate::spray::Flights;
 
 /// Most drops that lie where they came to rest, as in `common/picture/spray_drops.wgsl`.
-pub const MOST_RESTING: usize = 128;
+pub const MOST_RESTING: usize = 160;
 
 /// A drop that lies where it came to rest: half a ball, whose other half is in what it lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,7 @@ use vitriol_xr::Hand;
 use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
-use crate::marks::Marks;
+use crate::marks::{Carriers, Marks};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards, tint};
 use crate::stage;
 use crate::tools::{pane, tools};
@@ -329,7 +329,7 @@ impl Camera {
         };
         let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
         let bones = self.gloves.worn(world, &self.hands, &[None; 2]);
-        let resting = self.marks.drawn(bones.each_ref().map(Vec::as_slice));
+        let resting = self.marks.drawn(Carriers::of(world, &bones));
         let tools = tools(world, self.celsius);
         let frame = FrameDesc {
             extent: None,

@@ -74,7 +74,7 @@ pub use judging::Judging;
 pub use laboratory::{Laboratory, Setup, on_device, prepare};
 pub use liquid::Liquid;
 pub use looks::{Looked, Looks};
-pub use marks::Marks;
+pub use marks::{Carriers, Marks};
 pub use moment::{Moment, Watch};
 pub use observer::{FILM_FPS, FILM_SIZE, Observations, Observer, sample_is_due};
 pub use progress::Progress;

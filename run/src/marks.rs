@@ -1,13 +1,17 @@
-//! Drops that stay where they came to rest: on gloves and bare hands, which they go along with, on bench and floor; and splashes on the
-//! goggles.
+//! Drops that stay where they came to rest: on gloves, bare hands and the outside of flasks, which they go along with, on bench and floor;
+//! and splashes on the goggles.
 //!
 //! They are made of what observations list, some steps after it happened, and nothing that is simulated depends on them.
+
+#[cfg(test)]
+mod tests;
 
 use std::f64::consts::PI;
 
 use glam::{Mat3, Vec3};
 use vitriol_render::{Bone, MOST_RESTING, RestingDrop};
 use vitriol_sim::bodies::Worn;
+use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::ToolKind;
 use vitriol_sim::solver::{Census, HARMFUL, Landed, Onto, Skin};
 use vitriol_sim::world::World;
@@ -23,11 +27,36 @@ const RINSES: f64 = 10.0;
 /// Places on the way of a drop at which it is looked for in a hand: at 3 m/s 2 mm apart. Chosen.
 const LOOKS: u32 = 16;
 
+/// Most drops on glass, of [`MOST_RESTING`]. They have these places to themselves and no others, so that they take none from skin. Chosen.
+const ON_GLASS: usize = 32;
+
 /// Liquid times its acid fraction that covers the goggles, m³: a drop of 0.05 mL leaves a stain a centimetre wide, and goggles have some
 /// twenty of those. Chosen.
 const COVERED: f64 = 1e-6;
 /// The share of the goggles that any acid covers: one of the six splashes that are drawn.
 const LEAST_COVERED: f64 = 1.0 / 6.0;
+
+/// What drops go along with.
+#[derive(Clone, Copy, Debug)]
+pub struct Carriers<'a> {
+    /// Bones of the left and of the right hand, real metres.
+    pub hands: [&'a [Bone]; 2],
+    /// stage_from_flask of each flask, m of the scene.
+    pub flasks: &'a [Pose],
+    /// Real metres that a metre of the scene is.
+    pub length_scale: f64,
+}
+
+impl<'a> Carriers<'a> {
+    /// The flasks of `world` as they are now, and these bones of the hands, real metres.
+    pub fn of(world: &'a World, hands: &'a [Vec<Bone>; 2]) -> Self {
+        Self {
+            hands: hands.each_ref().map(Vec::as_slice),
+            flasks: world.poses(),
+            length_scale: world.scene().scale.length_scale,
+        }
+    }
+}
 
 /// Where a drop lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +71,13 @@ enum Lies {
         share: f32,
         /// To where from the bone's axis, of length 1, in its [`frame`].
         out: Vec3,
+    },
+    /// On the outside of a flask.
+    Flask {
+        /// Its number.
+        flask: usize,
+        /// Where, in its frame, real metres.
+        at: Vec3,
     },
     /// On bench or floor, in the scene's stage, real metres.
     At(Vec3),
@@ -59,9 +95,13 @@ struct Mark {
 
 impl Mark {
     /// Its middle on the surface that it lies on; `None` on a hand that is not there.
-    fn place(&self, hands: [&[Bone]; 2]) -> Option<Vec3> {
+    fn place(&self, on: Carriers<'_>) -> Option<Vec3> {
         let (hand, index, share, out) = match self.lies {
             Lies::At(place) => return Some(place),
+            Lies::Flask { flask, at } => {
+                let pose = on.flasks.get(flask)?;
+                return Some(on.length_scale as f32 * pose.position + pose.transform_vector(at));
+            }
             Lies::Hand {
                 hand,
                 bone,
@@ -69,7 +109,7 @@ impl Mark {
                 out,
             } => (hand, bone, share, out),
         };
-        let bones = *hands.get(hand)?;
+        let bones = *on.hands.get(hand)?;
         let bone = bones.get(index)?;
         let [a, b] = bone.ends;
         let [at_a, at_b] = bone.radii;
@@ -80,12 +120,16 @@ impl Mark {
     fn is_on(&self, skin: usize) -> bool {
         matches!(self.lies, Lies::Hand { hand, .. } if hand == skin)
     }
+
+    fn is_on_glass(&self) -> bool {
+        matches!(self.lies, Lies::Flask { .. })
+    }
 }
 
 /// The drops of a scene since its start.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    /// At most [`MOST_RESTING`], the largest ones.
+    /// At most [`MOST_RESTING`], the largest ones, of which at most [`ON_GLASS`] are on flasks and those behind the others.
     marks: Vec<Mark>,
     /// Liquid times its acid fraction that came to the face, m³ at real size; `None` before any did.
     face: Option<f64>,
@@ -94,9 +138,9 @@ pub struct Marks {
 }
 
 impl Marks {
-    /// Takes in an observation that was made with these bones of the hands, real metres; `length_scale` is the scene's.
-    pub fn take(&mut self, census: &Census, hands: [&[Bone]; 2], length_scale: f64) {
-        let real = length_scale.powi(3);
+    /// Takes in an observation that was made with these hands and flasks.
+    pub fn take(&mut self, census: &Census, on: Carriers<'_>) {
+        let real = on.length_scale.powi(3);
         for (skin, touching) in Skin::ALL.into_iter().zip(&census.skin) {
             self.rinse(skin as usize, real * touching.rinsed);
         }
@@ -107,25 +151,26 @@ impl Marks {
         }
         for landed in &census.landed {
             let volume = real * landed.volume;
-            let Some(lies) = lies(landed, hands, length_scale as f32) else {
+            let Some(lies) = lies(landed, on) else {
                 continue;
             };
             if volume >= LEAST {
                 let acid = landed.acid;
-                self.add(Mark { lies, volume, acid }, hands);
+                self.add(Mark { lies, volume, acid }, on);
             }
         }
-        if self.marks.len() > MOST_RESTING {
-            // Stable: of equal ones the older stay.
-            self.marks.sort_by(|a, b| b.volume.total_cmp(&a.volume));
-            self.marks.truncate(MOST_RESTING);
-        }
+        let (mut glass, mut others): (Vec<_>, Vec<_>) =
+            self.marks.drain(..).partition(Mark::is_on_glass);
+        keep_largest(&mut others, MOST_RESTING - ON_GLASS);
+        keep_largest(&mut glass, ON_GLASS);
+        self.marks.append(&mut others);
+        self.marks.append(&mut glass);
     }
 
     /// A drop that falls on another one becomes one with it.
-    fn add(&mut self, new: Mark, hands: [&[Bone]; 2]) {
-        let at = new.place(hands);
-        let covers = |mark: &Mark| match (mark.place(hands), at) {
+    fn add(&mut self, new: Mark, on: Carriers<'_>) {
+        let at = new.place(on);
+        let covers = |mark: &Mark| match (mark.place(on), at) {
             (Some(place), Some(at)) => f64::from(place.distance(at)) < cap_radius(mark.volume),
             _ => false,
         };
@@ -175,8 +220,9 @@ impl Marks {
         })
     }
 
-    /// The cloths of `world` take off what they lie on.
+    /// The cloths of `world` take off what they lie on, and what was on a flask that broke is gone.
     pub fn wiped(&mut self, world: &World) {
+        self.broke(|flask| world.is_broken(flask));
         let scale = world.scene().scale.length_scale as f32;
         for (tool, pose) in world.scene().tools.iter().zip(world.tools()) {
             if tool.kind == ToolKind::Cloth {
@@ -191,20 +237,34 @@ impl Marks {
     fn wipe(&mut self, ends: [Vec3; 2], radius: f32) {
         self.marks.retain(|mark| match mark.lies {
             Lies::At(place) => place.distance(nearest_to(ends, place).1) > radius,
-            Lies::Hand { .. } => true,
+            Lies::Hand { .. } | Lies::Flask { .. } => true,
         });
     }
 
-    /// The drops as they are drawn with these bones of the hands, real metres.
-    pub fn drawn(&self, hands: [&[Bone]; 2]) -> Vec<RestingDrop> {
+    fn broke(&mut self, is_broken: impl Fn(usize) -> bool) {
+        self.marks
+            .retain(|mark| !matches!(mark.lies, Lies::Flask { flask, .. } if is_broken(flask)));
+    }
+
+    /// The drops as they are drawn with these hands and flasks.
+    pub fn drawn(&self, on: Carriers<'_>) -> Vec<RestingDrop> {
         let drawn = self.marks.iter().filter_map(|mark| {
             Some(RestingDrop {
-                position: mark.place(hands)?,
+                position: mark.place(on)?,
                 radius: cap_radius(mark.volume) as f32,
                 acid: mark.acid,
             })
         });
         drawn.collect()
+    }
+}
+
+/// Keeps so many marks at most.
+fn keep_largest(marks: &mut Vec<Mark>, most: usize) {
+    if marks.len() > most {
+        // Stable: of equal ones the older stay.
+        marks.sort_by(|a, b| b.volume.total_cmp(&a.volume));
+        marks.truncate(most);
     }
 }
 
@@ -229,14 +289,16 @@ fn apart(bone: &Bone, at: Vec3) -> f32 {
 }
 
 /// Where a drop lies that came to rest; `None` in the face, where [`Marks::goggles`] shows it.
-fn lies(landed: &Landed, hands: [&[Bone]; 2], scale: f32) -> Option<Lies> {
+fn lies(landed: &Landed, on: Carriers<'_>) -> Option<Lies> {
+    let scale = on.length_scale as f32;
     let to = scale * landed.position;
     let hand = match landed.onto {
         Onto::Table | Onto::Floor => return Some(Lies::At(to)),
+        Onto::Flask(flask) => return Some(Lies::Flask { flask, at: to }),
         Onto::Skin(Skin::Face) => return None,
         Onto::Skin(skin) => skin as usize,
     };
-    let bones = *hands.get(hand)?;
+    let bones = *on.hands.get(hand)?;
     let (bone, at) = met(bones, to - scale * landed.way, to)?;
     let (share, axis) = nearest_to(bones.get(bone)?.ends, at);
     let out = frame(bones, bone)?.transpose() * (at - axis).normalize_or(Vec3::Y);
@@ -280,166 +342,4 @@ fn frame(bones: &[Bone], bone: usize) -> Option<Mat3> {
             |(_, part)| part.normalize(),
         );
     Some(Mat3::from_cols(aside, axis.cross(aside), axis))
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-    use glam::Quat;
-    use vitriol_render::Finish;
-    use vitriol_sim::solver::Came;
-
-    fn bone(ends: [Vec3; 2]) -> Bone {
-        Bone {
-            ends,
-            radii: [0.008; 2],
-            finish: Finish::Glove,
-            stain: 0.0,
-        }
-    }
-
-    fn drop(onto: Onto, position: Vec3, volume: f64) -> Landed {
-        Landed {
-            onto,
-            position,
-            way: Vec3::new(0.0, -0.03, 0.0),
-            volume,
-            acid: 0.0,
-        }
-    }
-
-    fn census(landed: Vec<Landed>) -> Census {
-        Census {
-            landed,
-            ..Census::default()
-        }
-    }
-
-    /// A ball of radius r has 4/3 π r³, so half a ball of 1 mm has 2.0944 µL.
-    #[test]
-    fn half_a_ball_has_the_drops_volume() {
-        assert!((cap_radius(2.094_395e-9) - 1e-3).abs() < 1e-9);
-        assert!((cap_radius(8.0 * 2.094_395e-9) - 2e-3).abs() < 1e-9);
-    }
-
-    /// A drop falls through a finger, in a scene twice as large as real: it lies on top, and goes along when the hand is turned and moved.
-    #[test]
-    fn a_drop_on_a_hand_goes_along_with_it() {
-        let hand = [
-            bone([Vec3::new(0.0, 1.0, 0.05), Vec3::new(0.04, 1.0, 0.05)]),
-            bone([Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 1.0, 0.03)]),
-        ];
-        let under = 2.0 * Vec3::new(0.0, 0.991, 0.01);
-        let landed = Landed {
-            way: 2.0 * Vec3::new(0.0, -0.03, 0.0),
-            ..drop(Onto::Skin(Skin::Right), under, 8.0 * 1e-9)
-        };
-        let mut marks = Marks::default();
-        marks.take(&census(vec![landed]), [&[], &hand], 0.5);
-        let [lies] = marks.drawn([&[], &hand])[..] else {
-            unreachable!("one drop")
-        };
-        assert!(lies.position.distance(Vec3::new(0.0, 1.008, 0.01)) < 1e-4);
-        assert!((f64::from(lies.radius) - cap_radius(1e-9)).abs() < 1e-7);
-        let turn = Quat::from_rotation_z(1.0) * Quat::from_rotation_x(0.4);
-        let moved = |at: Vec3| turn * at + Vec3::new(0.3, -0.2, 0.1);
-        let later = hand.map(|it| bone(it.ends.map(moved)));
-        let there = marks.drawn([&[], &later])[0].position;
-        assert!(there.distance(moved(lies.position)) < 1e-5, "{there}");
-        // A hand that is not seen has none that is seen, and another glove is clean.
-        assert_eq!(marks.drawn([&hand, &[]]), []);
-        let worn = |right| Worn {
-            goggles: None,
-            gloves: Some([true, right]),
-        };
-        marks.wears(worn(true));
-        assert_eq!(marks.drawn([&[], &hand]).len(), 1);
-        marks.wears(worn(false));
-        assert_eq!(marks.drawn([&[], &hand]), []);
-    }
-
-    /// 0.3 mL of 50 % to the face, in a scene twice as large as real, are 0.15 mL of acid: less than one splash of six has. Ten times as much
-    /// covers all. Water leaves none, and nothing is seen through goggles that are off.
-    #[test]
-    fn acid_in_the_face_covers_the_goggles() {
-        let mut marks = Marks::default();
-        let splash = |marks: &mut Marks, acid: f64, volume: f64| {
-            let mut census = Census::default();
-            census.skin[Skin::Face as usize].came = Came {
-                particles: 1,
-                volume: 8.0 * volume,
-                acid,
-                ..Came::default()
-            };
-            marks.take(&census, [&[], &[]], 0.5);
-            marks.goggles()
-        };
-        assert_eq!(splash(&mut marks, 0.0, 1e-6), 0.0);
-        assert_eq!(splash(&mut marks, 0.5, 0.3e-6), 1.0 / 6.0);
-        let half = splash(&mut marks, 0.5, 0.7e-6);
-        assert!((half - 0.5).abs() < 1e-6, "{half}");
-        assert_eq!(splash(&mut marks, 0.5, 3e-6), 1.0);
-        for (on, seen) in [(Some(false), 0.0), (Some(true), 1.0), (None, 1.0)] {
-            marks.wears(Worn {
-                goggles: on,
-                gloves: None,
-            });
-            assert_eq!(marks.goggles(), seen, "{on:?}");
-        }
-    }
-
-    /// More drops than are drawn: the largest stay, and a cloth takes off those that it lies on.
-    #[test]
-    fn the_largest_stay_until_they_are_wiped() {
-        let at = |n: usize| Vec3::new(0.01 * n as f32, 0.75, 0.0);
-        let number = MOST_RESTING + 20;
-        let all = (0..number).map(|n| drop(Onto::Table, at(n), 1e-12 * (n + 1) as f64));
-        let mut marks = Marks::default();
-        marks.take(&census(all.collect()), [&[], &[]], 1.0);
-        let drawn = marks.drawn([&[], &[]]);
-        assert_eq!(drawn.len(), MOST_RESTING);
-        assert!(drawn.iter().all(|it| it.position.x > at(19).x));
-        marks.wipe([at(number - 1), at(number - 1) + 0.02 * Vec3::Y], 0.035);
-        // Of those 1 cm apart the last four.
-        assert_eq!(marks.drawn([&[], &[]]).len(), MOST_RESTING - 4);
-    }
-
-    /// Two parts of water and one of acid of 90 % by volume: 30 %.
-    #[test]
-    fn a_drop_has_the_acid_of_what_fell_there() {
-        let at = Vec3::new(0.0, 0.75, 0.0);
-        let acid = Landed {
-            acid: 0.9,
-            ..drop(Onto::Table, at, 5e-9)
-        };
-        let mut marks = Marks::default();
-        marks.take(&census(vec![drop(Onto::Table, at, 1e-8)]), [&[], &[]], 1.0);
-        marks.take(&census(vec![acid]), [&[], &[]], 1.0);
-        let [lies] = marks.drawn([&[], &[]])[..] else {
-            unreachable!("one drop")
-        };
-        assert!((lies.acid - 0.3).abs() < 1e-6, "{lies:?}");
-    }
-
-    /// What falls on a drop joins it, up to a drop's 0.05 mL; ten times as much water takes it off a hand.
-    #[test]
-    fn drops_join_and_are_rinsed_off() {
-        let hand = [bone([Vec3::ZERO, Vec3::new(0.0, 0.0, 0.03)])];
-        let landed = drop(Onto::Skin(Skin::Left), Vec3::new(0.0, -0.01, 0.01), 15e-9);
-        let mut marks = Marks::default();
-        for count in 1..=5 {
-            marks.take(&census(vec![landed]), [&hand, &[]], 1.0);
-            let drawn = marks.drawn([&hand, &[]]);
-            assert_eq!(drawn.len(), 1);
-            let volume = (15e-9 * f64::from(count)).min(0.05e-6);
-            assert!((f64::from(drawn[0].radius) - cap_radius(volume)).abs() < 1e-7);
-        }
-        let mut water = Census::default();
-        water.skin[0].rinsed = 0.3e-6;
-        marks.take(&water, [&hand, &[]], 1.0);
-        assert_eq!(marks.drawn([&hand, &[]]).len(), 1);
-        marks.take(&water, [&hand, &[]], 1.0);
-        assert_eq!(marks.drawn([&hand, &[]]), []);
-    }
 }

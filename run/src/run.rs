@@ -17,7 +17,7 @@ use crate::clock::SimulatedTime;
 use crate::failure::{Blame, Failure, blame_world};
 use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
-use crate::marks::Marks;
+use crate::marks::{Carriers, Marks};
 use crate::units::count;
 use crate::{stage, track};
 
@@ -364,9 +364,12 @@ impl Run {
         let census = &looked.census;
         self.seen.spilt = [&census.table, &census.floor].map(|held| real * held.volume);
         self.seen.flasks.clone_from(&census.flasks);
-        let (scale, hands) = (self.world.scene().scale.length_scale, &looked.hands);
-        self.marks
-            .take(census, hands.each_ref().map(Vec::as_slice), scale);
+        let carriers = Carriers {
+            hands: looked.hands.each_ref().map(Vec::as_slice),
+            flasks: &looked.poses,
+            length_scale: self.world.scene().scale.length_scale,
+        };
+        self.marks.take(census, carriers);
         // From the observation before on.
         let since = looked.t - looked.elapsed;
         let heard = self

@@ -115,7 +115,7 @@ impl Solver {
             &spec.parameters,
             sizes,
             (spec.ground.scale, spec.tools),
-            (&constants, &buffers),
+            (&constants, &buffers, &vessels),
         )?;
         let start = SolverState::start(spec.particles, &grid, &spec.parameters, spec.flasks.len());
         let solver = Self {

@@ -127,6 +127,10 @@ fn a_class_has_one_console() {
     tab.eval(&format!("{}.click()", at("end-now")));
     let (code, said) = session.end();
     assert_eq!(code, Some(0), "{said}");
+    // What was done stays on the page, whose hub goes on.
+    tab.until(&format!("!{}.hidden", at("summary")));
+    let kept = tab.eval(&format!("{}.textContent", at("summary-recording")));
+    assert_eq!(kept, "It was not recorded.");
     assert!(tab.complaints().is_empty());
 }
 

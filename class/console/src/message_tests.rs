@@ -50,6 +50,8 @@ fn full() -> State {
         t_s: Some(-1.234_567_890_123_456_7e-300),
         text: long(),
         grave: false,
+        attempt: u32::MAX,
+        scene: long(),
     };
     let flask = Flask {
         name: long(),
@@ -60,6 +62,11 @@ fn full() -> State {
     State {
         hints: List::clipped(vec![said; 99]),
         incidents: List::clipped(vec![incident; 99]),
+        coming: Some(Coming {
+            scene: long(),
+            choice: Some(u8::MAX),
+        }),
+        recording: Some(long()),
         readings: Readings {
             flasks: List::clipped(vec![flask; 99]),
             ..Readings::default()
@@ -98,6 +105,12 @@ fn what_is_said_is_understood() {
         };
         assert_eq!(order(text), Some(expected), "{text}");
     }
+    let to_all = FromPage::OrderAll {
+        echo: 3,
+        command: Command::Pause { on: true },
+    };
+    let text = r#"{"say":"order-all","echo":3,"command":{"do":"pause","on":true}}"#;
+    assert_eq!(page(text), Some(to_all));
     assert_eq!(page(r#"{"say":"lost"}"#), Some(FromPage::Lost {}));
     let pictures = FromPage::Pictures {
         codec: Some(Codec::Jpeg),

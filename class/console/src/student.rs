@@ -73,6 +73,12 @@ pub struct State {
     pub scene: Text<NAME>,
     /// Its index in [`Student::choices`]; `None` where it is none of them.
     pub choice: Option<u8>,
+    /// The scene that is being prepared to follow it; `None` where none is.
+    pub coming: Option<Coming>,
+    /// Number of the present attempt, from 1; 0 before the first.
+    pub attempt: u32,
+    /// Whether the student has taken something in a hand in this attempt, so that another scene would lose work.
+    pub worked: bool,
     /// Number of the last [`Order`](crate::Order) that has taken effect in this frame, or was refused; 0 before the first.
     pub done: u64,
     /// The controls.
@@ -85,10 +91,24 @@ pub struct State {
     pub readings: Readings,
     /// The last incidents.
     pub incidents: List<Incident, 32>,
+    /// Number of incidents of the present attempt.
+    pub incidents_of_attempt: u32,
     /// Number of incidents in all.
     pub incidents_so_far: u32,
+    /// The file that the session is recorded in, on the student's computer; `None` where nothing is recorded.
+    pub recording: Option<Text<SENTENCE>>,
     /// Times of frames.
     pub frames: Frames,
+}
+
+/// A scene that is being prepared.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coming {
+    /// Its title.
+    pub scene: Text<NAME>,
+    /// Its index in [`Student::choices`]; `None` where it is none of them.
+    pub choice: Option<u8>,
 }
 
 /// State of the controls in a frame.
@@ -154,6 +174,10 @@ pub struct Incident {
     pub text: Text<SENTENCE>,
     /// Whether someone would have been hurt.
     pub grave: bool,
+    /// Number of the attempt that it belongs to, from 1.
+    pub attempt: u32,
+    /// Title of that attempt's scene.
+    pub scene: Text<NAME>,
 }
 
 /// Measured values.

@@ -7,10 +7,10 @@ use crate::bounded::{List, Text};
 use crate::command::{Command, Order};
 use crate::picture::Codec;
 use crate::port::ORDERS;
-use crate::student::{NAME, SENTENCE, State, Student};
+use crate::student::{Choice, NAME, SENTENCE, State, Student};
 
 /// Version of the messages between student's program and hub. Another one is refused.
-pub const PROTOCOL: u32 = 2;
+pub const PROTOCOL: u32 = 3;
 /// Most bytes of a message from a page. The longest valid one is a message of [`MESSAGE`](crate::MESSAGE) characters, each escaped as 12
 /// bytes.
 pub const MOST_FROM_PAGE: usize = 4 << 10;
@@ -44,6 +44,13 @@ pub(crate) enum FromPage {
         /// The command.
         command: Command,
     },
+    /// An order to each student that is connected and can do it.
+    OrderAll {
+        /// The page's own number of it.
+        echo: u32,
+        /// The command.
+        command: Command,
+    },
     /// Make a new code, for another browser.
     Invite {},
 }
@@ -56,6 +63,8 @@ pub(crate) enum ToPage {
     Class {
         /// In the order in which they connected.
         students: Vec<Brief>,
+        /// The scenes that all of them offer; none where they differ.
+        choices: List<Choice, 16>,
     },
     /// From here on, state and pictures are of this student.
     Opened {
@@ -77,6 +86,15 @@ pub(crate) enum ToPage {
         echo: u32,
         /// The hub's number of it, which a state has once it has taken effect.
         number: u64,
+    },
+    /// An order to all went to some students.
+    OrderedAll {
+        /// The page's own number of it.
+        echo: u32,
+        /// Number of students that it went to.
+        given: u32,
+        /// Number of students that are connected and cannot do it.
+        refused: u32,
     },
     /// An order or a message was refused.
     Refused {
@@ -111,10 +129,12 @@ pub(crate) struct Brief {
     pub step: Option<[u16; 2]>,
     /// Temperature of the hottest particle, °C.
     pub hottest_c: Option<f64>,
-    /// Number of incidents.
+    /// Number of incidents of the present attempt.
     pub incidents: u32,
-    /// The last incident.
-    pub last: Option<Text<SENTENCE>>,
+    /// The gravest of them, of equal ones the last.
+    pub gravest: Option<Text<SENTENCE>>,
+    /// Whether someone would have been hurt by that one.
+    pub grave: bool,
     /// Whether simulated time is held.
     pub paused: bool,
 }
@@ -126,6 +146,12 @@ impl Brief {
             let flasks = state.readings.flasks.iter();
             flasks.filter_map(|flask| flask.hottest_c).reduce(f64::max)
         };
+        let gravest = state.and_then(|state| {
+            let of_attempt = state.incidents.iter();
+            let of_attempt = of_attempt.filter(|incident| incident.attempt == state.attempt);
+            // Of equal ones this is the last.
+            of_attempt.max_by_key(|incident| incident.grave)
+        });
         Self {
             student,
             name,
@@ -138,10 +164,9 @@ impl Brief {
             hottest_c: state
                 .and_then(hottest)
                 .map(|hottest| (10.0 * hottest).round() / 10.0),
-            incidents: state.map_or(0, |state| state.incidents_so_far),
-            last: state
-                .and_then(|state| state.incidents.last())
-                .map(|incident| incident.text.clone()),
+            incidents: state.map_or(0, |state| state.incidents_of_attempt),
+            gravest: gravest.map(|incident| incident.text.clone()),
+            grave: gravest.is_some_and(|incident| incident.grave),
             paused: state.is_some_and(|state| state.controls.paused),
         }
     }

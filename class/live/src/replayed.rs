@@ -13,7 +13,7 @@ use vitriol_xr::PoseFrame;
 
 use super::coder::{Coder, RawPicture};
 use super::serve::Console;
-use super::told::{incidents, readings};
+use super::told::{Attempts, attempts, readings};
 
 /// Time between two looks for orders while time is held.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -33,8 +33,8 @@ pub struct Live {
     due: Option<Instant>,
     /// How long the last step took, s.
     took: f64,
-    /// Of how many events it is made, and what went wrong in them.
-    incidents: (usize, Vec<vitriol_console::Incident>),
+    /// The number of events that were evaluated, and the attempts in them.
+    attempts: (usize, Attempts),
 }
 
 impl Live {
@@ -58,7 +58,7 @@ impl Live {
             done: 0,
             due: None,
             took: 0.0,
-            incidents: (0, Vec::new()),
+            attempts: (0, Attempts::default()),
         })
     }
 
@@ -102,8 +102,8 @@ impl Live {
         let Some(glimpse) = self.inner.glimpse() else {
             return;
         };
-        if self.incidents.0 != glimpse.events.len() {
-            self.incidents = (glimpse.events.len(), incidents(glimpse.events, &self.texts));
+        if self.attempts.0 != glimpse.events.len() {
+            self.attempts = (glimpse.events.len(), attempts(glimpse.events, &self.texts));
         }
         let state = self.state(&glimpse);
         self.console.port.publish(state);
@@ -124,20 +124,25 @@ impl Live {
                 _ => {}
             }
         }
-        let all = &self.incidents.1;
-        let lately = all.iter().skip(all.len().saturating_sub(32));
+        let attempts = &self.attempts.1;
         State {
             frame: self.time.steps(),
             time_s: Some(self.time.seconds()),
             scene: Text::clipped(self.texts.scene(name)),
             choice: None,
+            coming: None,
+            attempt: attempts.present,
+            // A recording keeps what was done.
+            worked: false,
             done: self.done,
             controls,
             step: None,
             hints: List::default(),
             readings: readings(scene, &self.texts, glimpse.flasks, glimpse.spilt),
-            incidents: List::clipped(lately.cloned()),
-            incidents_so_far: all.len() as u32,
+            incidents: attempts.incidents.clone(),
+            incidents_of_attempt: attempts.of_present,
+            incidents_so_far: attempts.so_far,
+            recording: None,
             frames: Frames {
                 mean_s: Some(self.took),
                 worst_s: None,

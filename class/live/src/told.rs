@@ -5,10 +5,23 @@ use vitriol_lesson::{Attempt, Event, Glass, Texts, What};
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Held;
 
-/// What went wrong, in the order of its beginning.
-pub fn incidents(events: &[Event], texts: &Texts) -> Vec<Incident> {
+/// The attempts of a run, as the console shows them.
+#[derive(Clone, Debug, Default)]
+pub struct Attempts {
+    /// Number of the present one, from 1; 0 before the first.
+    pub present: u32,
+    /// What went wrong lately, attempt by attempt, in the order of its beginning.
+    pub incidents: List<Incident, 32>,
+    /// Number of incidents of the present attempt.
+    pub of_present: u32,
+    /// Number of incidents in all.
+    pub so_far: u32,
+}
+
+/// The attempts in these events.
+pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
     let attempts = Attempt::all(events.iter().cloned());
-    let of = |attempt: &Attempt| -> Vec<_> {
+    let of = |(number, attempt): (u32, &Attempt)| -> Vec<_> {
         let incidents = attempt.incidents.iter();
         incidents
             .map(|incident| Incident {
@@ -18,10 +31,19 @@ pub fn incidents(events: &[Event], texts: &Texts) -> Vec<Incident> {
                     incident.what,
                     What::WaterIntoAcid { .. } | What::BoiledOver { .. } | What::OnSkin { .. }
                 ),
+                attempt: number,
+                scene: Text::clipped(texts.scene(&attempt.scene)),
             })
             .collect()
     };
-    attempts.iter().flat_map(of).collect()
+    let all: Vec<_> = (1..).zip(&attempts).flat_map(of).collect();
+    let last = attempts.last();
+    Attempts {
+        present: attempts.len() as u32,
+        of_present: last.map_or(0, |last| last.incidents.len() as u32),
+        so_far: all.len() as u32,
+        incidents: List::clipped(all[all.len().saturating_sub(32)..].iter().cloned()),
+    }
 }
 
 /// What is measured, at real size, of flasks as `texts` name them; `[bench, floor]` is what lies there, real m³.
@@ -54,5 +76,49 @@ pub fn readings(
             .then(|| bubbles / (liquid + bubbles)),
         bench_m3: Some(bench),
         floor_m3: Some(floor),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_lesson::{Cause, Contents, Glassware, Incident as Found};
+
+    /// What went wrong in an attempt is told as that attempt's, and the present one counts its own alone.
+    #[test]
+    fn incidents_are_of_their_attempts() {
+        let begun = |t_s, scene: &str| Event::Begun {
+            t_s,
+            scene: scene.to_owned(),
+            contents: Contents::new(),
+            glass: Glassware::default(),
+        };
+        let dropped = |t_s| {
+            Event::Incident(Found {
+                t_s,
+                until_s: t_s,
+                what: What::Dropped {
+                    flask: "source".to_owned(),
+                    speed_m_s: 2.0,
+                    broke: false,
+                },
+                cause: Cause::Unknown,
+                place_m: [0.0; 3],
+            })
+        };
+        let texts = Texts::english().unwrap();
+        let mut events = vec![begun(0.0, "water-into-acid")];
+        events.extend((1..=40).map(|t| dropped(f64::from(t))));
+        events.extend([begun(50.0, "my-own"), dropped(51.0)]);
+        let told = attempts(&events, &texts);
+        assert_eq!([told.present, told.of_present, told.so_far], [2, 1, 41]);
+        // The last ones of all.
+        let whose: Vec<_> = told.incidents.iter().map(|it| it.attempt).collect();
+        assert_eq!(whose, [&[1_u32; 31][..], &[2]].concat());
+        let scenes = [0, 31].map(|at| &*told.incidents[at].scene);
+        assert_eq!(scenes, ["Water into acid", "my-own"]);
+        assert_eq!(told.incidents[31].t_s, Some(51.0));
+        assert_eq!(attempts(&[], &texts).present, 0);
     }
 }

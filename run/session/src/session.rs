@@ -249,7 +249,8 @@ impl Session {
         let rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();
         let sounds = Sounds::new(options.sound, options.plan.seed);
         let made_for = (gpu, &*benches.library, benches.eyes.extent);
-        let instructor = Instructor::new(options.console, options.language, made_for)?;
+        let told = (options.language, options.record.as_deref());
+        let instructor = Instructor::new(options.console, told, made_for)?;
         Ok(Self {
             benches,
             choices: Choices::new(decisions),

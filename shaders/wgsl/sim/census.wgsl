@@ -4,11 +4,10 @@
 //!include common/chemistry/drops.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/solution.wgsl
+//!include common/glass/glass_distance.wgsl
 //!include common/glass/ground.wgsl
 //!include common/liquid/particle.wgsl
 
-/// Number of flasks, whose places come first; behind them the air, the table, the floor, and what skin there is.
-override FLASKS: u32 = 0u;
 /// What a share of 1 is in a sum; so many that all particles' shares fit a word.
 override WHOLE: u32 = 65536u;
 /// Height over table or floor up to which liquid lies on it, m.
@@ -23,6 +22,7 @@ override TOUCHES: f32 = 0.00125;
 /// T_B of the paper, °C; the physical chemistry has one for each composition.
 override PAPERS_BOILING_POINT: f32 = 100.0;
 
+/// Places: the flasks come first, behind them the air, the table, the floor, and what skin there is.
 const IN_AIR = 0u;
 const ON_TABLE = 1u;
 const ON_FLOOR = 2u;
@@ -64,12 +64,15 @@ const MOVED_VOLUME = 1u;
 /// Volume times acid fraction.
 const MOVED_ACID = 2u;
 
-/// Behind these: how many drops came to rest since the last look, and so many of them, in any order.
+/// Behind these: how many drops came to rest since the last look, and so many of them, in any order; and the same of those on glass, which
+/// have a list of their own, so that they take no place from those on skin.
 const LANDINGS = 64u;
+const LANDINGS_ON_GLASS = 32u;
 const LANDING_WORDS = 9u;
-/// Onto what, beside the numbers of whose skin.
+/// Onto what, beside the numbers of whose skin; from the last on, the number of the flask is added.
 const ONTO_TABLE = 3u;
 const ONTO_FLOOR = 4u;
+const ONTO_FLASK = 5u;
 
 /// What a share of 1 stands for: °C from the first to the second; particles' volumes; and in `reach` a speed's seconds
 /// and a radius.
@@ -94,6 +97,8 @@ struct CensusRun {
     limbs: u32,
     /// Whether there was none before.
     first: u32,
+    /// Substeps of the frame before the look: so many sets of poses are behind that of the frame's start.
+    substeps: u32,
 }
 
 /// A part of skin: the hull of two spheres, m, and whose it is (0 left hand, 1 right hand, 2 face).
@@ -179,13 +184,18 @@ fn moved(place: u32, origin: u32, volume: f32, acid: f32) {
     atomicAdd(&tallies[index + MOVED_ACID], share(volume * acid, 0.0, VOLUMES));
 }
 
-/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), its volume over V0 and its acid fraction. Those that find no place
-/// in the list are only not drawn.
+/// A drop came to rest at the end of a way: onto what (0 to 2: whose skin), its volume over V0 and its acid fraction. On a flask, the place is in
+/// the flask's frame. Those that find no place in their list are only not drawn.
 fn landed(onto: u32, x: vec3<f32>, way: vec3<f32>, volume: f32, acid: f32) {
     let places = FLASKS + SKIN + SKINS;
-    let base = places * WORDS + places * FLASKS * MOVED_WORDS;
+    var base = places * WORDS + places * FLASKS * MOVED_WORDS;
+    var most = LANDINGS;
+    if (onto >= ONTO_FLASK) {
+        base += 1u + LANDINGS * LANDING_WORDS;
+        most = LANDINGS_ON_GLASS;
+    }
     let n = atomicAdd(&tallies[base], 1u);
-    if (n >= LANDINGS) { return; }
+    if (n >= most) { return; }
     let at = base + 1u + n * LANDING_WORDS;
     atomicStore(&tallies[at], onto);
     for (var k = 0u; k < 3u; k++) {
@@ -317,8 +327,35 @@ fn count_particle(i: u32) {
     places_before[tag.y] = place | wetted << WETTED | touched << TOUCHED | lain << LAIN | origin << ORIGIN;
 }
 
-/// What of a record's drops came to rest since the start, of which `before` was known at the last look. What came to lie on table or floor
-/// since then is listed, where it lies; on glass, which moves, it is not.
+/// Where drops lie on the outside of glass.
+struct OnGlass {
+    /// FLASKS for none.
+    flask: u32,
+    /// In that flask's frame, on the glass.
+    place: vec3<f32>,
+    /// How far from the glass they came to rest, m; LYING for none.
+    apart: f32,
+}
+
+/// The outside of glass nearest to where drops came to rest in the last frame, as far off as the tables reach. All poses of the frame are
+/// looked at, because the drops stayed where they were in the stage and the glass has moved on since.
+fn on_glass(x: vec3<f32>) -> OnGlass {
+    var nearest = OnGlass(FLASKS, x, SUPPORT);
+    for (var n = 0u; n <= run.substeps; n++) {
+        for (var k = 0u; k < FLASKS; k++) {
+            let p = flask_from_stage(poses[n * FLASKS + k], x);
+            let gap = glass(k, p);
+            if (gap.distance >= 0.0 && gap.distance < nearest.apart && !is_inside(k, p)) {
+                nearest = OnGlass(k, p - gap.distance * gap.normal, gap.distance);
+            }
+        }
+    }
+    if (nearest.flask == FLASKS) { nearest.apart = LYING; }
+    return nearest;
+}
+
+/// What of a record's drops came to rest since the start, of which `before` was known at the last look. What came to lie on table or floor,
+/// or on the outside of glass, since then is listed where it lies; on the inside, where it runs down into the liquid, it is not.
 fn fallen_of(n: u32, before: f32) -> f32 {
     let flight = drops[n];
     let mass = flight.fallen.x - before;
@@ -326,12 +363,18 @@ fn fallen_of(n: u32, before: f32) -> f32 {
     if (run.first != 0u || mass <= 0.0 || flight.mass > 0.0) { return flight.fallen.x; }
     if ((flight.memberships >> 16u) != NOBODYS || flight.density <= 0.0) { return flight.fallen.x; }
     var x = flight.position;
-    var onto = ONTO_TABLE;
-    if (x.y < FLOOR + LYING) {
+    let on = on_glass(x);
+    let over_floor = x.y - FLOOR;
+    let over_table = x.y - TABLE_TOP;
+    var onto = ONTO_FLASK + on.flask;
+    if (over_floor < on.apart) {
         onto = ONTO_FLOOR;
         x.y = FLOOR;
-    } else if (TABLE && place_of(NOBODYS, x) == FLASKS + ON_TABLE) {
+    } else if (TABLE && place_of(NOBODYS, x) == FLASKS + ON_TABLE && over_table < on.apart) {
+        onto = ONTO_TABLE;
         x.y = TABLE_TOP;
+    } else if (on.flask < FLASKS) {
+        x = on.place;
     } else {
         return flight.fallen.x;
     }

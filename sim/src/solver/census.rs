@@ -9,6 +9,7 @@ use super::buffers::Buffers;
 use super::pipelines::{Constants, SolverPass};
 use super::spray::spray_left;
 use super::transfer::write;
+use super::vessels::Vessels;
 use super::{Solver, SolverError};
 use glam::{DVec3, Vec3};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -42,7 +43,11 @@ const PLACES: usize = 6;
 const WORDS: usize = 23;
 const MOVED_WORDS: usize = 3;
 const LANDINGS: usize = 64;
+const LANDINGS_ON_GLASS: usize = 32;
 const LANDING_WORDS: usize = 9;
+const ONTO_TABLE: usize = 3;
+const ONTO_FLOOR: usize = 4;
+const ONTO_FLASK: usize = 5;
 const WARMTHS: [f64; 2] = [-50.0, 350.0];
 const SUPERHEATS: [f64; 2] = [-350.0, 150.0];
 const VOLUMES: f64 = 8.0;
@@ -99,7 +104,7 @@ impl Looks {
         parameters: &Parameters,
         [count, flasks]: [usize; 2],
         (scale, rinsing): (f64, bool),
-        (constants, buffers): (&Constants, &Buffers),
+        (constants, buffers, vessels): (&Constants, &Buffers, &Vessels),
     ) -> Result<Self, SolverError> {
         let whole = (u32::MAX as usize / count.max(1)).min(65_536);
         let slots = parameters.bubbles().map_or(0, |it| it.slots() as usize);
@@ -110,7 +115,7 @@ impl Looks {
             buffer("bubbles_before", bytes_of_elements::<BubbleBefore>(slots))?,
             buffer("tallies", bytes_of_elements::<u32>(words(flasks)))?,
         ];
-        let all = bound(&own, buffers);
+        let all = bound(&own, buffers, vessels);
         let extra = [
             ("WHOLE", whole as f64),
             ("LYING", LYING * parameters.support_radius),
@@ -146,7 +151,8 @@ impl Looks {
 fn bound<'a>(
     [limbs, places, bubbles, tallies]: &'a [Buffer; 4],
     b: &'a Buffers,
-) -> [&'a Buffer; 12] {
+    vessels: &'a Vessels,
+) -> [&'a Buffer; 16] {
     [
         limbs,
         places,
@@ -160,6 +166,10 @@ fn bound<'a>(
         &b.bubbles,
         &b.drops,
         &b.solution,
+        &b.poses,
+        &vessels.flasks,
+        &vessels.radii,
+        &vessels.distances,
     ]
 }
 
@@ -171,9 +181,16 @@ fn papers_boiling_point(parameters: &Parameters) -> f64 {
     }
 }
 
-/// Number of words of all tallies: those of each place, then those of each place and flask, then the drops that came to rest.
+/// Number of words of all tallies: those of each place, then those of each place and flask, then the drops that came to rest, of which those
+/// on glass are last.
 fn words(flasks: usize) -> usize {
-    words_of_places(flasks) + 1 + LANDINGS * LANDING_WORDS
+    let landings = [LANDINGS, LANDINGS_ON_GLASS].map(words_of_landings);
+    words_of_places(flasks) + landings.iter().sum::<usize>()
+}
+
+/// Number of words of a list of so many drops that came to rest.
+fn words_of_landings(most: usize) -> usize {
+    1 + most * LANDING_WORDS
 }
 
 /// Number of words of each place, and of each place and flask.
@@ -269,9 +286,9 @@ impl Solver {
                 elapsed: elapsed as f32,
                 limbs: parts.len() as u32,
                 first: looks.is_first.swap(false, Ordering::Relaxed).into(),
-                ..CensusRun::default()
+                substeps: self.parameters.substeps,
             };
-            let all = bound(&looks.own, &self.buffers);
+            let all = bound(&looks.own, &self.buffers, &self.vessels);
             let pass = looks.pass.begin(rec, &all);
             pass.constants(&run).invocations(count)?;
         }
@@ -299,6 +316,15 @@ fn limb(part: &SkinPart) -> Limb {
         whose: part.whose as u32,
         ..Limb::default()
     }
+}
+
+/// The records of a list of drops that came to rest, whose first word is their number.
+fn listed(words: &[u32]) -> Vec<[u32; LANDING_WORDS]> {
+    let Some((&count, words)) = words.split_first() else {
+        return Vec::new();
+    };
+    let (records, _) = words.as_chunks::<LANDING_WORDS>();
+    records.iter().take(count as usize).copied().collect()
 }
 
 impl CensusRecord {
@@ -351,19 +377,18 @@ impl Units {
 
     /// The drops that came to rest, in an order that does not depend on the device's.
     fn landed(&self, words: &[u32]) -> Vec<Landed> {
-        let Some((&count, words)) = words.split_first() else {
-            return Vec::new();
-        };
-        let (records, _) = words.as_chunks::<LANDING_WORDS>();
-        let mut records: Vec<_> = records.iter().take(count as usize).collect();
+        let (others, on_glass) = words.split_at(words_of_landings(LANDINGS).min(words.len()));
+        let mut records = listed(others);
+        records.extend(listed(on_glass));
         records.sort_unstable();
         let landed = records.into_iter().filter_map(|words| {
-            let [onto, numbers @ ..] = *words;
+            let [onto, numbers @ ..] = words;
             let [x, y, z, a, b, c, volume, acid] = numbers.map(f32::from_bits);
-            let onto = match onto {
-                3 => Onto::Table,
-                4 => Onto::Floor,
-                skin => Onto::Skin(*Skin::ALL.get(skin as usize)?),
+            let onto = match onto as usize {
+                ONTO_TABLE => Onto::Table,
+                ONTO_FLOOR => Onto::Floor,
+                flask if flask >= ONTO_FLASK => Onto::Flask(flask - ONTO_FLASK),
+                skin => Onto::Skin(*Skin::ALL.get(skin)?),
             };
             Some(Landed {
                 onto,

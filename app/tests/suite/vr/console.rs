@@ -174,7 +174,15 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         click(40, "pause", &pressed("pause", false)),
         speed(44, "1"),
         click(48, "unsay", &reads("shown", "nothing")),
-        click(52, "reset", &reads("k-v-now", "0.75")),
+        click(
+            52,
+            "reset",
+            &format!(
+                "{} && {}.querySelector('h4').textContent.startsWith('Attempt 2: ')",
+                reads("k-v-now", "0.75"),
+                at("incident-list")
+            ),
+        ),
         click(60, "spare", &pressed("spare", false)),
         // What is done while time is held, right before the end, is kept too.
         click(64, "pause", &pressed("pause", true)),
@@ -238,6 +246,9 @@ mod long {
         let folder = tempfile::tempdir().unwrap();
         let deeds = vec![
             click(66, "pause", &pressed("pause", true)),
+            // The flask in the hand is work, which another start would lose.
+            click(70, "reset", &format!("{}.open", at("lose"))),
+            click(72, "lose-not", &format!("!{}.open", at("lose"))),
             click(76, "pause", &pressed("pause", false)),
         ];
         let Some((_hub, instructor, options)) = directed(folder.path(), deeds) else {

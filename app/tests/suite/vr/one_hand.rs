@@ -208,7 +208,8 @@ fn either_arm_reaches_all() {
 fn either_hand_presses_each_button_from_its_place() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    let scenes = choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes =
+        choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
     let scenes: Vec<Decision> = scenes.collect();
     let all = [
         &scenes[..],

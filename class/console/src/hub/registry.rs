@@ -191,7 +191,17 @@ impl Registry {
                 echo,
                 student,
                 command,
-            } => inner.order(page, echo, student, command),
+            } => {
+                let answer = match inner.order(student, command) {
+                    Ok(number) => ToPage::Ordered { echo, number },
+                    Err(why) => ToPage::Refused {
+                        echo: Some(echo),
+                        why,
+                    },
+                };
+                inner.answer(page, &answer);
+            }
+            FromPage::OrderAll { echo, command } => inner.order_all(page, echo, &command),
             FromPage::Invite {} => {}
         }
     }
@@ -214,7 +224,7 @@ impl Registry {
     /// Number of students, number of pages, and the load of each page.
     pub fn counts(&self) -> (usize, usize, Vec<Load>) {
         let inner = lock(&self.0);
-        let here = inner.students.values().filter(|e| e.connection.is_some());
+        let here = inner.here();
         let loads: Vec<_> = inner
             .pages
             .values()
@@ -236,8 +246,12 @@ impl Inner {
             let here = entry.connection.is_some();
             Brief::new(*student, entry.is.name.clone(), here, entry.state.as_ref())
         };
+        let mut offered = self.here().map(|entry| &entry.is.choices);
+        let first = offered.next();
+        let choices = first.filter(|first| offered.all(|other| other == *first));
         text(&ToPage::Class {
             students: self.students.iter().map(brief).collect(),
+            choices: choices.cloned().unwrap_or_default(),
         })
     }
 
@@ -304,31 +318,53 @@ impl Inner {
         }
     }
 
-    fn order(&mut self, page: u64, echo: u32, student: u32, command: Command) {
-        let entry = self.students.get_mut(&student);
-        let answer = match entry.filter(|entry| entry.connection.is_some()) {
-            None => Err("this student is not connected"),
-            Some(entry) => command.check(&entry.is).and_then(|()| {
-                // A program may have had orders of another hub before.
-                let done = entry.state.as_ref().map_or(0, |state| state.done);
-                let number = entry.ordered.max(done).saturating_add(1);
-                let order = Order { number, command };
-                let queued = entry.inbox.order(order);
-                queued.map_err(|_| "the student's program takes no orders at the moment")?;
-                entry.ordered = number;
-                Ok(number)
-            }),
-        };
-        let answer = match answer {
-            Ok(number) => ToPage::Ordered { echo, number },
-            Err(why) => ToPage::Refused {
-                echo: Some(echo),
-                why,
-            },
-        };
+    /// The students that are connected.
+    fn here(&self) -> impl Iterator<Item = &Entry> {
+        let entries = self.students.values();
+        entries.filter(|entry| entry.connection.is_some())
+    }
+
+    fn answer(&self, page: u64, answer: &ToPage) {
         if let Some(page) = self.pages.get(&page) {
-            page.mailbox.answer(&answer);
+            page.mailbox.answer(answer);
         }
+    }
+
+    /// Passes an order on to a student; returns the order's number, or the reason why it is refused.
+    fn order(&mut self, student: u32, command: Command) -> Result<u64, &'static str> {
+        let entry = self.students.get_mut(&student);
+        let entry = entry.filter(|entry| entry.connection.is_some());
+        let entry = entry.ok_or("this student is not connected")?;
+        command.check(&entry.is)?;
+        // A program may have had orders of another hub before.
+        let done = entry.state.as_ref().map_or(0, |state| state.done);
+        let number = entry.ordered.max(done).saturating_add(1);
+        let queued = entry.inbox.order(Order { number, command });
+        queued.map_err(|_| "the student's program takes no orders at the moment")?;
+        entry.ordered = number;
+        Ok(number)
+    }
+
+    /// Passes an order on to each student that is connected.
+    fn order_all(&mut self, page: u64, echo: u32, command: &Command) {
+        let here = self.students.iter();
+        let here = here.filter(|(_, entry)| entry.connection.is_some());
+        let here: Vec<_> = here.map(|(student, _)| *student).collect();
+        let [mut given, mut refused] = [0, 0];
+        for student in here {
+            match self.order(student, command.clone()) {
+                Ok(_) => given += 1,
+                Err(_) => refused += 1,
+            }
+        }
+        self.answer(
+            page,
+            &ToPage::OrderedAll {
+                echo,
+                given,
+                refused,
+            },
+        );
     }
 }
 

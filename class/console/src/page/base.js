@@ -19,6 +19,7 @@ const page = {
   is: null,          // what that student's program is
   state: null,       // its last state
   codec: null,       // "h264" or "jpeg"
+  over: null,        // number of the student whose session was ended from here
   hides: sessionStorage.getItem("hides") === "yes",
 };
 
@@ -36,22 +37,33 @@ function show(id) {
   if (!focused || focused === document.body || focused.closest("[hidden]")) $(id).querySelector("h2").focus();
 }
 
-// Waits longer each time, up to five seconds.
+// Waits longer each time, up to five seconds. Where the session was ended, its program has ended too: the summary stays.
 let patience = 250;
+let retry = null;
+let tries = 0;
 function again() {
-  write($("link"), "No connection to the hub; trying again …");
-  setTimeout(connect, patience);
+  if (page.over !== null) {
+    showSummary();
+    return write($("link"), "The session is over.");
+  }
+  write($("link"), "No connection to the program; trying again …");
+  retry = setTimeout(connect, patience);
   patience = Math.min(2 * patience, 5000);
 }
 
 async function connect() {
+  clearTimeout(retry);
+  tries += 1;
+  const mine = tries;
   try {
     // A socket that is refused does not say why.
     const session = await fetch("session", { cache: "no-store" });
+    // A code that was given meanwhile connects by itself.
+    if (mine !== tries) return;
     if (session.status === 401) return ask();
     if (!session.ok) return again();
   } catch {
-    return again();
+    return mine === tries ? again() : undefined;
   }
   const socket = new WebSocket(location.origin.replace("http", "ws") + "/socket");
   socket.binaryType = "arraybuffer";
@@ -66,16 +78,18 @@ async function connect() {
   socket.onclose = () => {
     page.socket = null;
     loseOrders();
+    loseAsked();
     again();
   };
 }
 
 function hear(message) {
   switch (message.say) {
-    case "class": return showClass(message.students);
+    case "class": return showClass(message.students, message.choices);
     case "opened": return showOpened(message.student, message.is);
     case "state": return message.student === page.opened && showState(message.state);
     case "ordered": return ordered(message.echo, message.number);
+    case "ordered-all": return orderedAll(message.echo, message.given, message.refused);
     case "refused": return refused(message.echo, message.why);
     case "invited": return showInvitation(message);
   }
@@ -90,11 +104,14 @@ function ask(said = "") {
 }
 
 async function enter(code) {
+  clearTimeout(retry);
+  tries += 1;
+  page.over = null;
   let answer;
   try {
     answer = await fetch("enter", { method: "POST", body: code });
   } catch {
-    return ask("The hub does not answer. Is its program still running?");
+    return ask("The program does not answer. Is it still running?");
   }
   if (answer.ok) { $("code").value = ""; return connect(); }
   if (answer.status === 429) return ask(`Too many wrong codes: wait ${answer.headers.get("retry-after")} seconds.`);
@@ -131,3 +148,9 @@ function begin() {
   history.replaceState(null, "", location.pathname);
   enter(code);
 }
+// An address that is pasted into this tab changes only the fragment, and loads nothing.
+addEventListener("hashchange", () => {
+  if (page.socket?.readyState !== WebSocket.OPEN) return begin();
+  history.replaceState(null, "", location.pathname);
+  write($("link"), "Connected already: the code was not used");
+});

@@ -1,4 +1,9 @@
-// The class at a glance.
+// The class at a glance, those first who need help.
+function need(student) {
+  if (!student.here) return -1;
+  return (student.grave ? 1e6 : 0) + student.incidents;
+}
+
 function card(student) {
   const button = make("button", "", student.incidents > 0 ? "troubled" : "");
   button.type = "button";
@@ -9,7 +14,7 @@ function card(student) {
     student.step ? `step ${student.step[0]} of ${student.step[1]}` : "",
     known(student.hottest_c) ? `hottest ${student.hottest_c.toFixed(1)} °C` : "",
     student.paused ? "paused" : "",
-    student.incidents > 0 ? `⚠ ${student.incidents} incident${student.incidents > 1 ? "s" : ""}: ${student.last ?? ""}` : "",
+    student.incidents > 0 ? `⚠ ${student.incidents} incident${student.incidents > 1 ? "s" : ""}: ${student.gravest ?? ""}` : "",
   ];
   for (const line of lines.filter(Boolean)) button.append(make("span", line));
   button.onclick = () => open(student.student);
@@ -18,12 +23,13 @@ function card(student) {
   return item;
 }
 
-function showClass(students) {
+function showClass(students, choices) {
   const first = page.students.length === 0;
   page.students = students;
+  showAll(students, choices);
   $("empty").hidden = students.length > 0;
   const focused = document.activeElement?.dataset?.student;
-  $("students").replaceChildren(...students.map(card));
+  $("students").replaceChildren(...[...students].sort((one, other) => need(other) - need(one)).map(card));
   if (focused) $("students").querySelector(`[data-student="${CSS.escape(focused)}"]`)?.focus();
   showName();
   // One headset is no class.
@@ -33,6 +39,7 @@ function showClass(students) {
 function showName() {
   const student = page.students.find((student) => student.student === page.opened);
   if (student) write($("name"), student.name + (student.here ? "" : " (not connected)"));
+  if (student && !student.here && page.over === page.opened) showSummary();
 }
 
 function open(student) {
@@ -41,16 +48,18 @@ function open(student) {
 
 $("to-class").onclick = () => {
   say({ say: "close" });
-  page.opened = page.is = page.state = null;
+  page.opened = page.is = page.state = page.over = null;
   forgetPicture();
   show("class");
+  if (!page.socket) connect();
 };
 
 let curvesOf = null;
 function showOpened(student, is) {
   page.opened = student;
   page.is = is;
-  page.state = null;
+  page.state = page.over = null;
+  $("summary").hidden = true;
   forgetPicture();
   // A student that was lost for a moment keeps its curves.
   if (curvesOf !== student) forgetCurves();
@@ -60,3 +69,56 @@ function showOpened(student, is) {
   showName();
   show("student");
 }
+
+// What is asked of all. How many students it went to is said, and each one's card shows what came of it.
+const asked = new Map();   // by the page's number: words, and what follows
+function orderAll(command, words, then = () => {}) {
+  echoes += 1;
+  if (!say({ say: "order-all", echo: echoes, command })) {
+    return write($("all-said"), `${words}: not sent, there is no connection.`);
+  }
+  asked.set(echoes, { words, then });
+  write($("all-said"), `${words} …`);
+}
+
+function orderedAll(echo, given, refused) {
+  const order = asked.get(echo);
+  if (!order) return;
+  asked.delete(echo);
+  const count = (number) => `${number} student${number === 1 ? "" : "s"}`;
+  write($("all-said"), `${order.words}: sent to ${count(given)}${refused ? `, refused by ${count(refused)}` : ""}.`);
+  if (given > 0) order.then();
+}
+
+function loseAsked() {
+  for (const { words } of asked.values()) write($("all-said"), `${words}: the connection was lost; see below whether it was done.`);
+  asked.clear();
+}
+
+let offered = "";
+function showAll(students, choices) {
+  $("all").hidden = students.length < 2;
+  $("all-scene").hidden = choices.length === 0;
+  // A list that is open would close.
+  if (offered === JSON.stringify(choices)) return;
+  offered = JSON.stringify(choices);
+  $("all-choice").replaceChildren(...choices.map(({ title, kind }, choice) => {
+    const option = make("option", KINDS[kind] + title);
+    option.value = choice;
+    return option;
+  }));
+}
+$("all-pause").onclick = () => orderAll({ do: "pause", on: true }, "Pause");
+$("all-go").onclick = () => orderAll({ do: "pause", on: false }, "Go on");
+$("all-scene").onsubmit = (event) => {
+  event.preventDefault();
+  const choice = Number($("all-choice").value);
+  const words = $("all-choice").selectedOptions[0].textContent;
+  askFirst(words, "What students have done in their attempts is lost.", () => orderAll({ do: "scene", choice }, words));
+};
+$("all-send").onsubmit = (event) => {
+  event.preventDefault();
+  const text = $("all-message").value;
+  orderAll({ do: "message", text }, "Message", () => { if ($("all-message").value === text) $("all-message").value = ""; });
+};
+$("all-unsay").onclick = () => orderAll({ do: "message", text: "" }, "Message taken away");

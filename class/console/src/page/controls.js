@@ -1,15 +1,15 @@
 // What an instructor can ask for. A control shows what the student's program says, not what was pressed; while an order is
 // under way it has three dots.
 let echoes = 0;
-const waiting = new Map();   // by the page's number: control, words, the hub's number
+const waiting = new Map();   // by the page's number: control, words, the hub's number, what follows
 
-function order(command, words, control) {
+function order(command, words, control, then = () => {}) {
   if (page.opened === null) return;
   echoes += 1;
   if (!say({ say: "order", echo: echoes, student: page.opened, command })) {
     return write($("said"), `${words}: not sent, there is no connection.`);
   }
-  waiting.set(echoes, { control, words, number: null });
+  waiting.set(echoes, { control, words, number: null, begins: BEGIN.includes(command.do), ends: command.do === "end", then });
   control.dataset.waits = "";
   write($("said"), `${words} …`);
 }
@@ -24,7 +24,10 @@ function done(echo, end) {
 
 function ordered(echo, number) {
   const order = waiting.get(echo);
-  if (order) order.number = number;
+  if (!order) return;
+  order.number = number;
+  // Its last state may not come: the program ends with its session.
+  if (order.ends) page.over = page.opened;
 }
 
 function refused(echo, why) {
@@ -36,6 +39,27 @@ function loseOrders() {
   for (const echo of [...waiting.keys()]) done(echo, ": the connection was lost; see below whether it was done.");
 }
 
+// What brings up a scene from its start, which takes a while, and loses what the student has done in this attempt.
+const BEGIN = ["scene", "reset", "toggle"];
+let confirmed = null;
+function askFirst(title, what, then) {
+  confirmed = then;
+  write($("lose-title"), title);
+  write($("lose-what"), what);
+  $("lose").showModal();
+}
+$("lose-not").onclick = () => $("lose").close();
+$("lose-now").onclick = () => {
+  $("lose").close();
+  confirmed?.();
+};
+
+function beginScene(command, words, control) {
+  const begin = () => order(command, words, control);
+  if (!page.state?.worked) return begin();
+  askFirst(words, `The student is at work: attempt ${page.state.attempt} ends, and its flasks are lost.`, begin);
+}
+
 const KINDS = { correct: "✓ ", incorrect: "✗ ", other: "" };
 function showScenes() {
   for (const part of document.querySelectorAll(".of-session")) part.hidden = page.is.replays;
@@ -43,7 +67,7 @@ function showScenes() {
   $("scenes").replaceChildren(legend, ...page.is.choices.map(({ title, kind }, choice) => {
     const button = make("button", KINDS[kind] + title);
     button.type = "button";
-    button.onclick = () => order({ do: "scene", choice }, title, button);
+    button.onclick = () => beginScene({ do: "scene", choice }, title, button);
     return button;
   }));
   const range = page.is.k_v;
@@ -58,8 +82,8 @@ const toggle = (id, command, words) => {
 };
 toggle("pause", "pause", ["Go on", "Pause"]);
 toggle("spare", "spare", ["Boiling heard again", "Boiling muted"]);
-$("reset").onclick = () => order({ do: "reset" }, "From the start", $("reset"));
-$("other-order").onclick = () => order({ do: "toggle" }, "The other order", $("other-order"));
+$("reset").onclick = () => beginScene({ do: "reset" }, "From the start", $("reset"));
+$("other-order").onclick = () => beginScene({ do: "toggle" }, "The other order", $("other-order"));
 $("speed").onchange = () => {
   const rate = Number($("speed").value);
   order({ do: "slow-motion", rate }, `Speed ${$("speed").selectedOptions[0].textContent}`, $("speed"));
@@ -70,8 +94,10 @@ $("set-k-v").onsubmit = (event) => {
 };
 $("send").onsubmit = (event) => {
   event.preventDefault();
-  order({ do: "message", text: $("message").value }, "Message", event.submitter ?? $("message"));
-  $("message").value = "";
+  const text = $("message").value;
+  // Until the student's program has it, it can be sent again.
+  const sent = () => { if ($("message").value === text) $("message").value = ""; };
+  order({ do: "message", text }, "Message", event.submitter ?? $("message"), sent);
 };
 $("unsay").onclick = () => order({ do: "message", text: "" }, "Message taken away", $("unsay"));
 $("end").onclick = () => $("sure").showModal();
@@ -84,10 +110,15 @@ $("end-now").onclick = () => {
 function showControls(state) {
   const controls = state.controls;
   for (const [echo, order] of waiting) {
-    if (order.number !== null && order.number <= state.done) done(echo, ": done.");
+    if (order.number === null || order.number > state.done) continue;
+    order.then();
+    done(echo, order.begins && state.coming ? ": being prepared." : ": done.");
   }
+  $("coming").hidden = !state.coming;
+  if (state.coming) write($("coming-scene"), `Being prepared: ${state.coming.scene}. Until then the present scene goes on.`);
+  const asked = state.coming ? state.coming.choice : state.choice;
   [...$("scenes").querySelectorAll("button")].forEach((button, choice) => {
-    button.setAttribute("aria-pressed", choice === state.choice);
+    button.setAttribute("aria-pressed", choice === asked);
   });
   $("pause").setAttribute("aria-pressed", controls.paused);
   $("spare").setAttribute("aria-pressed", controls.spared);
@@ -98,7 +129,7 @@ function showControls(state) {
     speed.value = options.find((option) => Math.abs(option.value - controls.rate) < 0.005)?.value ?? "";
   }
   const boils = known(controls.k_v) && page.is.k_v !== null;
-  for (const part of $("set-k-v").querySelectorAll("input, button")) part.disabled = !boils;
+  for (const part of $("set-k-v").querySelectorAll("input, button")) part.disabled = !boils || controls.ended;
   write($("k-v-now"), boils ? String(Number(controls.k_v.toPrecision(4))) : "–, this scene has none");
   write($("shown"), controls.message || "nothing");
   for (const part of $("controls").querySelectorAll("button, input, select")) {
@@ -106,7 +137,30 @@ function showControls(state) {
   }
   // Only a scene of a pair has another order.
   if (!known(page.is.choices[state.choice]?.counterpart)) $("other-order").disabled = true;
-  if (controls.ended) write($("said"), "The session is over.");
+  if (!controls.message) $("unsay").disabled = true;
+  if (controls.ended) {
+    write($("said"), "The session is over.");
+    page.over = page.opened;
+    showSummary();
+  }
+}
+
+// What stays of a session that is over.
+function showSummary() {
+  const state = page.state;
+  if (!state || !$("summary").hidden) return;
+  const count = (number, one) => `${number} ${one}${number === 1 ? "" : "s"}`;
+  const attempts = Math.max(state.attempt, 1);
+  write($("summary-length"), `It lasted ${seconds(state.time_s)} of simulated time, in ${count(attempts, "attempt")}; the last scene was: ${state.scene}.`);
+  const grave = state.incidents.filter((incident) => incident.grave).length;
+  write($("summary-incidents"), count(state.incidents_so_far, "incident") + (grave ? `, ${grave} of them grave` : "") +
+    (state.incidents_so_far ? "; they are listed below." : "."));
+  write($("summary-recording"), page.is.replays ? "It was a replay, which writes its own report."
+    : state.recording ? `It is recorded on the student's computer in ${state.recording}`
+    : "It was not recorded.");
+  $("summary").hidden = false;
+  for (const part of $("controls").querySelectorAll("button, input, select")) part.disabled = true;
+  $("summary").scrollIntoView({ block: "nearest" });
 }
 
 function entries(list, said, mark = () => "") {
@@ -120,16 +174,32 @@ function entries(list, said, mark = () => "") {
   }));
 }
 
+// Incidents of earlier attempts stay, each attempt under its own heading, the present one first.
+function showIncidents({ attempt, scene, incidents }) {
+  const key = JSON.stringify([attempt, scene, incidents]);
+  const list = $("incident-list");
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  const numbers = [...new Set([...incidents.map((one) => one.attempt), attempt])].sort((a, b) => b - a);
+  list.replaceChildren(...numbers.flatMap((number) => {
+    const those = incidents.filter((one) => one.attempt === number);
+    const title = number === attempt ? `${scene} (now)` : those[0].scene;
+    const items = make("ol");
+    entries(items, those, (one) => one.grave ? "grave" : "");
+    return [make("h4", `Attempt ${number}: ${title}`), those.length > 0 ? items : make("p", "None so far.", "small")];
+  }));
+}
+
 function showState(state) {
   page.state = state;
   showControls(state);
-  const { step, hints, incidents } = state;
+  const { step, hints } = state;
   write($("step"), step ? (step.number > step.of ? `Done: ${step.title}` : `Step ${step.number} of ${step.of}: ${step.title}`) : "This scene has no procedure.");
   $("progress").hidden = !step;
   if (step) Object.assign($("progress"), { max: Math.max(step.of, 1), value: Math.max(step.number - 1, 0) });
   entries($("hints"), hints);
-  entries($("incident-list"), incidents, (incident) => incident.grave ? "grave" : "");
-  write($("incident-count"), String(state.incidents_so_far));
+  showIncidents(state);
+  write($("incident-count"), String(state.incidents_of_attempt));
   write($("scene"), state.scene);
   write($("time"), seconds(state.time_s));
   addPoints(state);

@@ -7,11 +7,11 @@ const MILLILITRES = 1e6;     // of a cubic metre
 const plots = [
   { title: "Temperature, °C", digits: 1, free: true, of: (state) => state.readings.flasks.flatMap((flask) => [
     [flask.name + ", hottest", flask.hottest_c], [flask.name + ", mean", flask.mean_c]]) },
-  { title: "Superheat, K", digits: 1, of: (state) => [["hottest", state.readings.superheat_k]] },
-  { title: "Void fraction, %", digits: 1, of: (state) => [["liquid", percent(state.readings.void_fraction)]] },
+  { title: "Superheat, K", solver: true, digits: 1, of: (state) => [["hottest", state.readings.superheat_k]] },
+  { title: "Void fraction, %", solver: true, digits: 1, of: (state) => [["liquid", percent(state.readings.void_fraction)]] },
   { title: "Spilt, mL", digits: 1, of: (state) => [
     ["bench", scaled(state.readings.bench_m3, MILLILITRES)], ["floor", scaled(state.readings.floor_m3, MILLILITRES)]] },
-  { title: "Frame time, ms", digits: 2, of: (state) => [
+  { title: "Frame time, ms", solver: true, digits: 2, of: (state) => [
     ["mean", scaled(state.frames.mean_s, 1000)], ["longest", scaled(state.frames.worst_s, 1000)],
     ["display's period", scaled(state.frames.period_s, 1000)]], note: (state) => `${state.frames.missed} missed` },
 ];
@@ -31,8 +31,9 @@ for (const plot of plots) {
   plot.details.append(make("summary", "As a table"), plot.table);
   plot.details.ontoggle = () => { dirty = true; };
   figure.append(plot.caption, plot.canvas, plot.keys, plot.details);
-  $("plots").append(figure);
+  $(plot.solver ? "solver-plots" : "plots").append(figure);
 }
+$("solver").ontoggle = () => { dirty = true; };
 
 let dirty = false;
 function forgetCurves() {

@@ -5,6 +5,7 @@ let decoding = false;   // a JPEG
 let later = null;       // the JPEG after it
 let failures = 0;
 let drawn = 0;
+let drawnAt = null;     // ms of the page, of the last picture
 
 async function chooseCodec() {
   page.codec = "jpeg";
@@ -27,6 +28,8 @@ function forgetPicture() {
   const canvas = $("picture");
   canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
   write($("stream"), "");
+  drawnAt = null;
+  showAge();
 }
 
 function draw(image, width, height) {
@@ -35,6 +38,8 @@ function draw(image, width, height) {
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   canvas.getContext("2d").drawImage(image, 0, 0, width, height);
   drawn += 1;
+  drawnAt = performance.now();
+  showAge();
   canvas.dataset.drawn = drawn;
   write($("stream"), `${page.codec === "h264" ? "H.264" : "JPEG"}, ${width} × ${height}`);
 }
@@ -122,6 +127,18 @@ function cannotDecode() {
   page.codec = "jpeg";
   tellPictures();
 }
+
+// A picture that stands still looks like a student who does.
+function showAge() {
+  const age = drawnAt === null ? 0 : Math.floor((performance.now() - drawnAt) / 1000);
+  write($("age"), drawnAt === null ? "" : age < 1 ? "live" : `picture of ${age} s ago`);
+}
+setInterval(showAge, 250);
+
+$("zoom").onclick = $("picture").onclick = () => {
+  const zoomed = $("student").classList.toggle("zoomed");
+  $("zoom").setAttribute("aria-pressed", zoomed);
+};
 
 function showHiding() {
   $("hide").setAttribute("aria-pressed", page.hides);

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use serde_json::json;
-use vitriol_console::{Codec, Command, EncodedPicture, ORDERS, PICTURES, State};
+use vitriol_console::{
+    Codec, Command, EncodedPicture, Incident, List, ORDERS, PICTURES, State, Student, Text,
+};
 use vitriol_tests::wait::until;
 
 use crate::client::{Client, cookie};
@@ -66,6 +68,83 @@ fn ten_pages_see_and_direct() {
     until("the pages are gone", || {
         (hub.counts().pages == 0).then_some(())
     });
+}
+
+#[test]
+fn an_order_to_all_goes_to_each_that_can_do_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let hub = hub(folder.path());
+    let students = ["Ada", "Bo"].map(|name| FakeStudent::in_hub(&hub, name));
+    let mut client = Client::new(&hub, &cookie(&hub));
+    let class = |client: &mut Client, count: usize| loop {
+        let class = client.hear("class");
+        if class["students"].as_array().unwrap().len() == count {
+            break class;
+        }
+    };
+    assert_eq!(class(&mut client, 2)["choices"][2]["kind"], "other");
+    let scene = json!({"do": "scene", "choice": 1});
+    client.say(&json!({"say": "order-all", "echo": 7, "command": scene}));
+    let answer = client.hear("ordered-all");
+    assert_eq!(
+        answer,
+        json!({"say": "ordered-all", "echo": 7, "given": 2, "refused": 0})
+    );
+    for student in &students {
+        assert_eq!(student.ordered(), Command::Scene { choice: 1 });
+    }
+    // A replay offers no scene, and takes no message.
+    let replay = Student {
+        replays: true,
+        choices: List::default(),
+        ..card("Replay")
+    };
+    let replay = FakeStudent::new(hub.student(replay).unwrap().unwrap());
+    assert_eq!(class(&mut client, 3)["choices"], json!([]));
+    let message = json!({"do": "message", "text": "Slowly!"});
+    client.say(&json!({"say": "order-all", "echo": 8, "command": message}));
+    let answer = client.hear("ordered-all");
+    let counts = json!([answer["given"], answer["refused"]]);
+    assert_eq!(counts, json!([2, 1]));
+    for student in &students {
+        let text = Text::clipped("Slowly!");
+        assert_eq!(student.ordered(), Command::Message { text });
+    }
+    replay.nothing_else();
+}
+
+#[test]
+fn a_card_names_the_gravest_incident_of_the_attempt() {
+    let folder = tempfile::tempdir().unwrap();
+    let hub = hub(folder.path());
+    let port = hub.student(card("Ada")).unwrap().unwrap();
+    let incident = |attempt, text: &str, grave| Incident {
+        text: Text::clipped(text),
+        attempt,
+        grave,
+        ..Incident::default()
+    };
+    port.publish(State {
+        attempt: 2,
+        incidents: List::clipped([
+            incident(1, "Acid on the face, before.", true),
+            incident(2, "Acid on the left hand.", true),
+            incident(2, "Liquid was spilt.", false),
+        ]),
+        incidents_of_attempt: 2,
+        incidents_so_far: 3,
+        ..first_state()
+    });
+    let mut client = Client::new(&hub, &cookie(&hub));
+    let student = loop {
+        let student = client.hear("class")["students"][0].take();
+        if student["incidents"] != 0 {
+            break student;
+        }
+    };
+    assert_eq!(student["gravest"], "Acid on the left hand.");
+    assert_eq!(student["grave"], true);
+    assert_eq!(student["incidents"], 2);
 }
 
 #[test]

@@ -6,6 +6,8 @@ mod crowd;
 #[cfg(target_os = "linux")]
 mod distant;
 #[cfg(target_os = "linux")]
+mod instructor;
+#[cfg(target_os = "linux")]
 mod page;
 #[cfg(target_os = "linux")]
 mod proxy;

@@ -114,9 +114,12 @@ fn each_control_does_what_it_says() {
         "document.getElementById('shown').textContent === {}",
         json!(message)
     ));
+    // What the student's program has taken leaves the field, and can be taken away; nothing else can.
+    tab.until("document.getElementById('message').value === ''");
     tab.eval("document.getElementById('unsay').click()");
     let text = Text::default();
     assert_eq!(student.ordered(), Command::Message { text });
+    tab.until("document.getElementById('unsay').disabled");
 
     // The information beside the controls.
     tab.until("document.getElementById('step').textContent === 'Step 2 of 7: Pour the acid into the water, slowly.'");
@@ -152,6 +155,7 @@ fn each_control_does_what_it_says() {
         tab.until(&format!(
             "document.getElementById('stream').textContent === '{codec}, 320 × 180'"
         ));
+        tab.until("document.getElementById('age').textContent === 'live'");
         see(&mut tab);
         if codec == "H.264" {
             photograph(&mut tab, "console.png");
@@ -216,7 +220,7 @@ fn codes_keyboard_class_and_a_network_that_is_cut() {
     let proxy = Proxy::new(hub.address());
     let ada = FakeStudent::in_hub(&hub, "Ada");
     let bo = FakeStudent::in_hub(&hub, "Bo");
-    bo.state.lock().unwrap().incidents_so_far = 0;
+    bo.state.lock().unwrap().incidents_of_attempt = 0;
     let Some(mut tab) = Tab::new() else { return };
     tab.look([390, 844], Look::Dark);
     let code = hub.invite().unwrap().code;

@@ -80,7 +80,11 @@ pub fn first_state() -> State {
             // A page that took this text for HTML would run it.
             text: Text::clipped("<img src=x onerror=alert(1)> Acid on the left hand."),
             grave: true,
+            attempt: 1,
+            scene: Text::clipped("Correct: acid into water"),
         }]),
+        attempt: 1,
+        incidents_of_attempt: 1,
         incidents_so_far: 1,
         ..State::default()
     };

@@ -5,7 +5,7 @@ use std::time::Instant;
 use vitriol_gpu::{LockWaits, Ticket};
 use vitriol_render::camera::NEAR;
 use vitriol_run::scenery::has_acid;
-use vitriol_run::{Action, Failure, Looked};
+use vitriol_run::{Action, Carriers, Failure, Looked};
 use vitriol_sim::scene::PictureTint;
 use vitriol_sim::solver::Skin;
 use vitriol_sim::world::World;
@@ -211,7 +211,7 @@ impl Session {
         self.pacing.begin(same, Some(drawn), bench, run)?;
         self.readings.clear();
         self.sounds.begin();
-        self.instructor.begin();
+        self.instructor.begin(self.run.events().len());
         self.checkpoints.forget();
         self.spills.clean();
         self.hints.begin();
@@ -324,7 +324,7 @@ impl Session {
             bones.extend(handle);
         }
 
-        let resting = (self.run.marks()).drawn(self.gloves.each_ref().map(Vec::as_slice));
+        let resting = (self.run.marks()).drawn(Carriers::of(world, &self.gloves));
         let tools = vitriol_run::tools(world, self.run.thermometer());
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);

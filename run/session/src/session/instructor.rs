@@ -3,9 +3,10 @@
 //! Orders act with the next frame, the student reads of each on the panel, and a recording keeps what a replay is to do again.
 
 use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use vitriol_console::{Command, Controls, Frames, List, Said, State, Step, Student, Text};
+use vitriol_console::{Coming, Command, Controls, Frames, List, Said, State, Step, Student, Text};
 use vitriol_gpu::{Gpu, Image};
 use vitriol_lesson::{Event, Language, Texts};
 use vitriol_run::{Action, Blame, Failure};
@@ -17,7 +18,7 @@ use crate::decision::Decision;
 use crate::info::Told;
 use crate::session::spills::Spilt;
 use crate::view::View;
-use vitriol_live::{Console, incidents, readings};
+use vitriol_live::{Attempts, Console, attempts, readings};
 use vitriol_run::choices::{self, CHOICES};
 use vitriol_run::texts::InstructorTexts;
 
@@ -37,6 +38,10 @@ pub(super) struct Now<'a> {
     pub time: f64,
     /// The scene's name, and the scene.
     pub scene: (&'a str, &'a Scene),
+    /// Name of the scene that is being prepared to follow it.
+    pub coming: Option<&'a str>,
+    /// Whether a hand holds something.
+    pub holds: bool,
     pub intensity: Option<f64>,
     pub spilt: Spilt,
     /// All events so far.
@@ -65,18 +70,24 @@ pub(super) struct Instructor {
     flasks: Vec<Held>,
     /// Processor times of the last frames, s.
     took: VecDeque<(Instant, f64)>,
-    /// The number of events that were evaluated, and the incidents in them.
-    incidents: (usize, Vec<vitriol_console::Incident>),
+    /// The number of events that were evaluated, and the attempts in them.
+    attempts: (usize, Attempts),
+    /// The number of events before the scene's start: with the first one after them its attempt has begun.
+    before: usize,
+    /// Whether a hand has held something since the scene's start.
+    worked: bool,
+    /// The file of the session's recording.
+    recording: Option<String>,
 }
 
 impl Instructor {
-    /// Of a session with that console, or with none, which is told in `language`, and whose pictures have `eye` pixels.
+    /// Of a session with that console, or with none, which is told in `language`, is recorded in `record` and has pictures of `eye` pixels.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
     pub fn new(
         console: Option<Console>,
-        language: Language,
+        (language, record): (Language, Option<&Path>),
         (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
     ) -> Result<Self, Failure> {
         // Now, and not when somebody looks: a pipeline takes longer than a frame.
@@ -91,7 +102,10 @@ impl Instructor {
             said: None,
             flasks: Vec::new(),
             took: VecDeque::new(),
-            incidents: (0, Vec::new()),
+            attempts: (0, Attempts::default()),
+            before: 0,
+            worked: false,
+            recording: record.map(|file| whole(file).display().to_string()),
         })
     }
 
@@ -175,9 +189,11 @@ impl Instructor {
         }
     }
 
-    /// Takes in that another bench is in use.
-    pub fn begin(&mut self) {
+    /// Takes in that another bench is in use, `before` events after the run's start.
+    pub fn begin(&mut self, before: usize) {
+        self.before = before;
         self.flasks.clear();
+        self.worked = false;
     }
 
     /// Takes in the time of a frame on the processor, s.
@@ -195,22 +211,30 @@ impl Instructor {
         let Some(port) = self.console.as_ref().map(|console| console.port.clone()) else {
             return;
         };
-        if self.incidents.0 != now.events.len() {
-            self.incidents = (now.events.len(), incidents(now.events, &self.texts));
+        if self.attempts.0 != now.events.len() {
+            self.attempts = (now.events.len(), attempts(now.events, &self.texts));
         }
+        self.worked |= now.holds;
         port.publish(self.state(now));
     }
 
     fn state(&self, now: &Now<'_>) -> State {
         let (name, scene) = now.scene;
-        let all = &self.incidents.1;
-        // The last ones are shown.
-        let lately = all.iter().skip(all.len().saturating_sub(32));
+        let attempts = &self.attempts.1;
+        // While time is held from its start on, an attempt has no event.
+        let is_new = now.events.len() == self.before;
+        let coming = now.coming.map(|name| Coming {
+            scene: Text::clipped(self.texts.scene(name)),
+            choice: choices::index(name),
+        });
         State {
             frame: now.frame,
             time_s: Some(now.time),
             scene: Text::clipped(self.texts.scene(name)),
             choice: choices::index(name),
+            coming,
+            attempt: attempts.present + u32::from(is_new),
+            worked: self.worked,
             done: self.done,
             controls: Controls {
                 k_v: now.intensity,
@@ -225,8 +249,10 @@ impl Instructor {
                 &self.flasks,
                 [now.spilt.bench, now.spilt.floor].map(|ml| 1e-6 * ml),
             ),
-            incidents: List::clipped(lately.cloned()),
-            incidents_so_far: all.len() as u32,
+            incidents: attempts.incidents.clone(),
+            incidents_of_attempt: if is_new { 0 } else { attempts.of_present },
+            incidents_so_far: attempts.so_far,
+            recording: self.recording.as_deref().map(Text::clipped),
             frames: self.frames(now),
         }
     }
@@ -271,6 +297,11 @@ impl Instructor {
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         self.view.as_mut().map_or(Ok(()), View::hand_over)
     }
+}
+
+/// A file's path from the root: the instructor is told where it is, and the program's folder is unknown to the page.
+fn whole(file: &Path) -> PathBuf {
+    std::path::absolute(file).unwrap_or_else(|_| file.to_owned())
 }
 
 /// The decision that a command asks for; `None` where this program cannot carry it out.

@@ -2,7 +2,7 @@
 
 use vitriol_console::List;
 use vitriol_run::{Action, Failure};
-use vitriol_xr::Shown;
+use vitriol_xr::{Shown, Side};
 
 use super::Session;
 use super::instructor::Now;
@@ -88,6 +88,10 @@ impl Session {
             frame: self.counts.frames,
             time: run.time().seconds(),
             scene: (run.scene(), run.world.scene()),
+            coming: self.benches.coming(),
+            holds: Side::BOTH
+                .iter()
+                .any(|side| run.world.holds(*side as usize)),
             intensity: run.world.intensity(),
             spilt: self.spills.spilt,
             events: run.events(),

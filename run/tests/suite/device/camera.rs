@@ -6,7 +6,7 @@ use std::f32::consts::FRAC_PI_2;
 use glam::{Quat, Vec3};
 use vitriol_run::scenery::drawn_liquid;
 use vitriol_run::track::key;
-use vitriol_run::{Camera, Colour, Marks, Shot};
+use vitriol_run::{Camera, Carriers, Colour, Marks, Shot};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Worn;
 use vitriol_sim::scene::{PictureRoom, Scene};
@@ -182,7 +182,7 @@ fn the_head_sees_splashes_on_its_goggles() {
         ..Came::default()
     };
     let mut splashed = Marks::default();
-    splashed.take(&census, [&[], &[]], 1.0);
+    splashed.take(&census, Carriers::of(&world, &[vec![], vec![]]));
     // Pixels that the splashes change.
     let changed = |camera: &mut Camera, marks: &Marks, colour: Colour| {
         let mut shoot = |marks: &Marks| {

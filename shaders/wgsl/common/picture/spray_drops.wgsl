@@ -27,7 +27,7 @@ const FLYING = 4u;
 const FLIGHTS_GROUP = 64u;
 /// Most drops that lie where they came to rest: they are flights of one drop, behind those of the bubbles' places. All of them are listed,
 /// also those that there are not.
-const RESTING = 128u;
+const RESTING = 160u;
 /// From drop to drop of a jet, in their radii: it breaks up 9.01 of its own radii apart, and a drop has 1.89 (Rayleigh 1878).
 const JET_STEP = 4.77;
 

@@ -129,17 +129,20 @@ pub enum Onto {
     Table,
     /// The floor.
     Floor,
+    /// The outside of a flask. What flies against its inside runs down into its liquid.
+    Flask(usize),
 }
 
-/// Drops of a bubble that came to rest since the last look: harmful ones on skin, all on table and floor. A particle is none: it is liquid that
-/// runs on, or lies there itself.
+/// Drops of a bubble that came to rest since the last look: harmful ones on skin, all on table, floor and the outside of glass. A particle is
+/// none: it is liquid that runs on, or lies there itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landed {
     /// What it came to rest on.
     pub onto: Onto,
-    /// Where it lies; where it touched skin, the place to which it came in the time of the look. In the stage, m of the scene.
+    /// Where it lies; where it touched skin, the place to which it came in the time of the look. In the stage, and on a flask in the
+    /// flask's frame, m of the scene.
     pub position: Vec3,
-    /// Its way to there in the time of the look, m of the scene; 0 on table and floor.
+    /// Its way to there in the time of the look, m of the scene; 0 on table, floor and glass.
     pub way: Vec3,
     /// Volume, m³ of the scene.
     pub volume: f64,
@@ -186,7 +189,7 @@ pub struct Census {
     pub skin: [Touching; 3],
     /// Liquid moved by place and flask, which [`Census::moved`] reads; empty where nothing moved.
     pub moves: Vec<Moved>,
-    /// Drops that came to rest since the last look; of more than 64 any 64.
+    /// Drops that came to rest since the last look; of more than 64 any 64, and beside them of more than 32 on flasks any 32.
     pub landed: Vec<Landed>,
     /// By flask: volume of the drops of its bubbles that came to rest elsewhere since the start, m³ of the scene at rest density.
     pub sprayed: Vec<f64>,
