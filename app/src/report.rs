@@ -6,6 +6,8 @@ mod html;
 mod model;
 mod plot;
 
+#[cfg(feature = "class")]
+pub use happened::told_page;
 pub use model::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, RecordingStatement, Report,
     SceneStatement, SolverStatement,

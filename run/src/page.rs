@@ -24,12 +24,17 @@ pub const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 /// A plot's axes.
 pub const AXIS: RGBColor = RGBColor(0x99, 0x99, 0x99);
 
-/// A page that needs no other file: `own` is what it adds to the style sheet.
+/// A page in English that needs no other file: `own` is what it adds to the style sheet.
 /// Every string in it is escaped.
 pub fn page(title: &str, own: &str, body: &Markup) -> String {
+    page_in("en", title, own, body)
+}
+
+/// Likewise in the language of that code (ISO 639-1).
+pub fn page_in(language: &str, title: &str, own: &str, body: &Markup) -> String {
     html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";

@@ -1,5 +1,7 @@
 //! The string table: what is said to a user, in the user's language.
 
+mod grades;
+
 use std::collections::BTreeMap;
 
 use crate::units::three_digits;
@@ -7,6 +9,8 @@ use crate::{Action, Blame, Failure};
 use serde::Deserialize;
 use vitriol_lesson::Language;
 use vitriol_sound::Caption;
+
+pub use self::grades::GradesTexts;
 
 /// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -21,6 +25,8 @@ pub struct Texts {
     pub summary: SummaryTexts,
     /// Texts of the panel itself.
     pub panel: PanelTexts,
+    /// Texts of a class's grades.
+    pub grades: GradesTexts,
 }
 
 /// Texts of the panel itself.

@@ -25,6 +25,8 @@ pub const LESSON_HASH: &str = "lesson_hash";
 pub const MODE: &str = "mode";
 /// The language of the lesson's texts.
 pub const LANGUAGE: &str = "language";
+/// The student's name, where it was given.
+pub const STUDENT: &str = "student";
 /// Hash of the final state, hexadecimal.
 pub const STATE_HASH: &str = "state_hash";
 

@@ -4,36 +4,44 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
+use vitriol_lesson::{Language, Mode};
 use vitriol_live::listen_address;
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
 use vitriol_run::arguments::{preset, whole};
 use vitriol_sim::scene::Preset;
 
-use super::lesson::JudgeArgs;
 use crate::command::grade::Tolerance;
 
 /// Arguments of `vitriol grade`.
 #[derive(Debug, Args)]
 pub struct GradeArgs {
-    /// Recordings (MCAP), or folders of them; one that cannot be graded stops no other
+    /// Recordings (MCAP), or folders of them, also with a folder for each student; one that cannot be graded stops no other
     #[arg(required = true, value_name = "DIR|TRACK")]
     pub tracks: Vec<PathBuf>,
-    /// The scene that they are graded by: a built-in one's name (see `vitriol scenes`) or a TOML file. A track that was
-    /// made with another is listed as such
+    /// A scene that they are graded by: a built-in one's name (see `vitriol scenes`) or a TOML file. Given several times, each
+    /// track is graded by the one that it names; a track that was made with another is listed as such. Without it by the
+    /// scenes of the lessons, or else by all built-in ones
     #[arg(long, value_name = "SCENE")]
-    pub scene: String,
+    pub scene: Vec<String>,
     /// Likewise the preset; without it any will do
     #[arg(long, value_parser = preset())]
     pub preset: Option<Preset>,
-    /// Likewise the lesson
-    #[command(flatten)]
-    pub judge: JudgeArgs,
+    /// Judge this lesson too: a built-in one's name (see `vitriol lesson`) or a TOML file. Given several times, each track by
+    /// the one that it names
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Vec<String>,
+    /// As it is gone through: guided, free or examination; without it as the lesson says
+    #[arg(long, value_name = "MODE", requires = "lesson")]
+    pub mode: Option<Mode>,
+    /// Language of what the table says of them: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
     /// Tracks at a time; without it as many as there are cores, and one with --verify
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1), allow_negative_numbers = true)]
     pub jobs: Option<u32>,
-    /// Folder for a result of each track and the table grades.csv, which is written anew each time; results that are there
-    /// and of the same track, scene and preset are taken as they are
+    /// Folder for a result of each track, and for grades.csv, grades.html and a page for each track, which are written anew
+    /// each time; results that are there and of the same track, scene and preset are taken as they are
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Simulate each track again, and say whether what happens is what it says
@@ -51,12 +59,16 @@ pub struct GradeArgs {
     /// Device for that: its number or a part of its name (see `vitriol doctor`)
     #[arg(long, requires = "verify")]
     pub device: Option<String>,
-    /// The class's file, which tells whose tracks they are; without it their files' names stand for students
+    /// The class's file, which tells whose tracks they are; without it the names of the students' folders, the names that tracks
+    /// were recorded with (`--name`), or the files' names stand for students
     #[arg(long, value_name = "FILE")]
     pub class: Option<PathBuf>,
     /// Grade what is whole of a track that breaks off or lacks steps
     #[arg(long)]
     pub accept_truncated: bool,
+    /// Fail where one of the tracks cannot be read, for scripts; without it only where none is graded
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// Arguments of `vitriol forget`.

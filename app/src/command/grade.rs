@@ -5,27 +5,31 @@ mod agreement;
 mod expected;
 mod graded;
 mod lesson;
+mod page;
 mod table;
+mod tracks;
 mod verify;
+mod wrong;
 
-use std::collections::BTreeSet;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use vitriol_lesson::procedure::Verdict as LessonVerdict;
-use vitriol_lesson::{Attempt, Score, Texts};
+use vitriol_lesson::{Attempt, Lesson, Score};
 use vitriol_record::store::Store;
 use vitriol_record::{Session, Timestamp};
 use vitriol_run::output::{make_folder, write_over};
 use vitriol_run::progress::Runs;
 use vitriol_run::several::at_a_time;
+use vitriol_run::track::STUDENT;
 use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit, interrupt, track};
 use vitriol_xr::files;
 use vitriol_xr::track::{Track, limits};
 
 use crate::cli::GradeArgs;
+use crate::command::course;
 use crate::command::recorded::{recorded_events, recorded_progress, whole};
-use crate::command::stem;
+use crate::report::told_page;
 
 pub use self::agreement::Tolerance;
 use self::expected::Expected;
@@ -33,16 +37,21 @@ use self::graded::{Found, Graded, Scored};
 use self::lesson::Columns;
 use self::table::Ended;
 pub use self::table::{Class, Line, Status};
+use self::tracks::{Named, Tracks};
 pub use self::verify::Verdict;
+use self::wrong::Words;
 
 /// The table's name in the folder.
 const TABLE: &str = "grades.csv";
 
+/// The page's.
+const PAGE: &str = "grades.html";
+
 /// Runs `vitriol grade`; `prepare` makes an experiment. A track that cannot be graded is a line of the table and stops no other.
 ///
 /// # Errors
-/// Before anything is read, [`Failure::Input`] for scene, files or folder. After all have been, what the first track that cannot be
-/// graded fails with.
+/// Before anything is read, [`Failure::Input`] for scene, files or folder. After all have been, what [`grade`] gives with the table,
+/// unless it is only that some files are bad: these fail the class where none is graded, or with `--strict`.
 pub fn run(
     args: &GradeArgs,
     format: Format,
@@ -50,10 +59,17 @@ pub fn run(
 ) -> Result<(), Failure> {
     let (class, failure) = grade(args, format, prepare)?;
     emit(format, &class, table::text)?;
-    failure.map_or(Ok(()), Err)
+    match failure {
+        Some(Failure::Input(_)) if class.graded > 0 && !args.strict => {
+            tracing::warn!("not graded, for the causes in the table: {}", class.bad());
+            Ok(())
+        }
+        Some(failure) => Err(failure),
+        None => Ok(()),
+    }
 }
 
-/// The table, and what the first track that cannot be graded fails with.
+/// The table, and what the first track that cannot be graded fails with; what is no fault of a track comes before that.
 ///
 /// # Errors
 /// As for [`run`].
@@ -62,12 +78,18 @@ pub fn grade(
     format: Format,
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync,
 ) -> Result<(Class, Option<Failure>), Failure> {
-    let expected = Expected::new(&args.scene, args.preset, args.judge.chosen()?)?;
-    let tracks = tracks(&args.tracks)?;
+    let lessons = args.lesson.iter().map(|it| course::named(it, args.mode));
+    let lessons = lessons.collect::<Result<Vec<_>, _>>()?;
+    let expected = Expected::all(&args.scene, args.preset, &lessons)?;
+    let tracks = Tracks::of(&args.tracks, args.out.as_deref())?;
+    if !tracks.passed_over.is_empty() {
+        let names = tracks::short(&tracks.passed_over);
+        tracing::warn!("passed over, since they are no recordings: {names}");
+    }
     let store = args.class.as_deref().map(Store::open_existing);
     let store = store.transpose().input()?;
     if let Some(out) = &args.out {
-        if let Some(name) = same_name(&tracks) {
+        if let Some(name) = tracks.same_name() {
             return Err(format!(
                 "two tracks are named {name}, and so would be their results in {}: give one of them another name",
                 out.display()
@@ -76,57 +98,84 @@ pub fn grade(
         }
         make_folder(out)?;
     }
+    let words = Words::of(args.language)?;
     let grading = Grading {
         args,
         expected: &expected,
-        texts: Texts::english().other()?,
+        words: &words,
         bars: Runs::new(format),
         prepare: &prepare,
     };
-    let one = |file: &PathBuf| {
+    let one = |named: &Named| {
         interrupt::check()?;
-        let done = grading.track(file);
+        let done = grading.track(named);
         // What was asked to stop is no mistake in a track.
         interrupt::check().map(|()| done)
     };
-    let ended = at_a_time(args.at_a_time(), &tracks, one)?;
+    let ended = at_a_time(args.at_a_time(), &tracks.all, one)?;
 
+    // A call for one track leaves its result alone: others like it may run beside it.
+    let several = tracks.all.len() > 1 || args.tracks.iter().any(|it| it.is_dir());
+    let out = args.out.as_deref().filter(|_| several);
     let mut class = Class {
-        scene: expected.asked.scene.clone(),
-        lesson: (expected.lesson.as_ref()).map(|(lesson, mode)| Columns::of(lesson, *mode)),
+        lessons: expected
+            .iter()
+            .filter_map(|it| it.lesson.as_ref())
+            .map(|(lesson, mode)| Columns::of(lesson, *mode))
+            .collect(),
+        passed_over: tracks.passed_over,
         ..Class::default()
     };
     let mut failure = None;
-    for (file, done) in tracks.iter().zip(ended) {
-        let name = file.display().to_string();
-        let (student, ended) = match done {
-            Ok((session, graded, taken)) => {
-                let graded = Box::new(graded);
+    for (named, done) in tracks.all.iter().zip(ended) {
+        let track = named.file.display().to_string();
+        match done {
+            Ok(read) => {
                 // Who is not found has the track's name; the table is made all the same.
-                let found = pseudonym(store.as_ref(), &session);
-                let student = found.unwrap_or_else(|error| {
-                    failure.get_or_insert(error);
+                let found = pseudonym(store.as_ref(), &read.session);
+                let found = found.unwrap_or_else(|error| {
+                    fail(&mut failure, error);
                     None
                 });
-                (student, Ended::Well { graded, taken })
+                // A folder was named by the platform, a recording by its student.
+                let own = || read.student.clone().unwrap_or_else(|| named.stem.clone());
+                let unnamed = || named.folder.clone().unwrap_or_else(own);
+                let student = found.unwrap_or_else(unnamed);
+                let report = out.map(|out| read.tell(out, (&named.stem, &student), &words));
+                let ended = Ended::Well {
+                    graded: &read.graded,
+                    taken: read.taken,
+                    lesson: read.lesson,
+                };
+                class.add((student, track, report.transpose()?), &ended, &words);
             }
             Err(error) => {
                 let text = error.to_string();
-                failure.get_or_insert(error);
-                (None, Ended::Failed(text))
+                fail(&mut failure, error);
+                let student = named.folder.as_ref().unwrap_or(&named.stem).clone();
+                class.add((student, track, None), &Ended::Failed(&text), &words);
             }
-        };
-        let student = student.unwrap_or_else(|| stem(&name));
-        class.add((student, name), &ended);
+        }
     }
-    // A call for one track leaves its result alone: others like it may run beside it.
-    let several = tracks.len() > 1 || args.tracks.iter().any(|it| it.is_dir());
-    if let Some(out) = args.out.as_deref().filter(|_| several) {
-        let table = out.join(TABLE);
+    if let Some(out) = out {
+        let (table, page) = (out.join(TABLE), out.join(PAGE));
         write_over(&table, &table::csv(&class)?)?;
+        write_over(&page, page::html(&class, &words).as_bytes())?;
         class.table = Some(table.display().to_string());
+        class.page = Some(page.display().to_string());
     }
     Ok((class, failure))
+}
+
+/// Keeps the first failure; one that is no fault of a track, such as a full disk, replaces one that is.
+fn fail(failure: &mut Option<Failure>, error: Failure) {
+    let of_track = |it: &Failure| matches!(it, Failure::Input(_));
+    if failure
+        .as_ref()
+        .is_none_or(|it| of_track(it) && !of_track(&error))
+    {
+        *failure = Some(error);
+    }
 }
 
 impl GradeArgs {
@@ -144,16 +193,28 @@ impl GradeArgs {
 /// What is the same for all tracks.
 struct Grading<'a, P> {
     args: &'a GradeArgs,
-    expected: &'a Expected,
-    texts: Texts,
+    expected: &'a [Expected],
+    words: &'a Words,
     bars: Runs,
     prepare: &'a P,
 }
 
-impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'_, P> {
-    /// Grades one track: its sitting, what is in it, and whether an earlier call left that.
-    fn track(&self, file: &Path) -> Result<(Session, Graded, bool), Failure> {
-        let (args, asked) = (self.args, &self.expected.asked);
+/// A track that was read.
+struct Read<'a> {
+    session: Session,
+    graded: Graded,
+    /// Whether an earlier call left the result.
+    taken: bool,
+    /// The lesson that it is judged by.
+    lesson: Option<&'a Lesson>,
+    /// The name that the student gave; results of it name nobody.
+    student: Option<String>,
+}
+
+impl<'a, P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'a, P> {
+    /// Grades one track.
+    fn track(&self, named: &Named) -> Result<Read<'a>, Failure> {
+        let (args, file) = (self.args, named.file.as_path());
         if files::is_absent(file) {
             return Err(format!(
                 "{}: no such file; name recordings or folders of them",
@@ -167,22 +228,34 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         let session = Session::of_recording(&bytes, Timestamp::UNIX_EPOCH);
         let content = session.id.to_string();
         let name = file.display().to_string();
-        let result = args.out.as_ref().map(|out| Graded::file(out, &stem(&name)));
+        let track = Track::parse(&bytes, file).map_err(track::blame)?;
+        let expected = Expected::of_track(self.expected, &track.metadata);
+        let expected = expected.ok_or("there is no scene to grade by").other()?;
+        let asked = &expected.asked;
+        let student = track.metadata.parameters.get(STUDENT).cloned();
+        let done = |graded, taken| Read {
+            session,
+            student,
+            graded,
+            taken,
+            lesson: expected.lesson.as_ref().map(|(lesson, _)| lesson),
+        };
+        let result = args.out.as_ref().map(|out| Graded::file(out, &named.stem));
         let by = || (args.tolerance.unwrap_or_default(), args.device.as_deref());
         let verified = args.verify.then(by);
         let earlier = result
             .as_deref()
             .and_then(|it| Graded::earlier(it, &content, asked, verified));
-        if let Some(earlier) = earlier.filter(|it| args.accept_truncated || !it.truncated) {
-            return Ok((session, earlier, true));
+        if let Some(mut earlier) = earlier.filter(|it| args.accept_truncated || !it.truncated) {
+            earlier.score_again(&self.words.texts);
+            return Ok(done(earlier, true));
         }
-        let track = Track::parse(&bytes, file).map_err(track::blame)?;
         let frames = track.frames.len();
         let cut = track.recovered;
         let track = whole(&name, track, args.accept_truncated)?;
         let truncated = cut || track.frames.len() < frames;
         let attempts = Attempt::all(recorded_events(&track));
-        let otherwise = self.expected.otherwise(&track, &attempts);
+        let otherwise = expected.otherwise(&track, &attempts);
         if otherwise.is_none() && attempts.is_empty() {
             return Err(format!(
                 "{name}: says nothing of what happened: it is no recording of a session, or one of an older version; \
@@ -191,7 +264,7 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
             .input();
         }
         let judged = |attempt: Attempt| Scored {
-            score: Score::of(&attempt, &asked.rubric, &self.texts),
+            score: Score::of(&attempt, &asked.rubric, &self.words.texts),
             attempt,
         };
         let simulated = args.verify && otherwise.is_none();
@@ -201,15 +274,14 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         };
         let of = (file_name(file), content);
         let mut graded = Graded::new(of, asked, truncated, found);
-        if let (Some((lesson, mode)), Found::Attempts(_)) = (&self.expected.lesson, &graded.found) {
+        if let (Some((lesson, mode)), Found::Attempts(_)) = (&expected.lesson, &graded.found) {
             graded.lesson = LessonVerdict::retold(lesson, *mode, &recorded_progress(&track));
         }
         if simulated {
-            let of = (args, file);
             let verified = verify::Verified::of(
-                of,
+                (args, file),
                 (track, truncated),
-                self.expected,
+                expected,
                 &self.bars,
                 self.prepare,
             )?;
@@ -218,7 +290,27 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         if let Some(result) = result {
             graded.keep(&result)?;
         }
-        Ok((session, graded, false))
+        Ok(done(graded, false))
+    }
+}
+
+impl Read<'_> {
+    /// Writes the page on the track, for that student, and gives back its name.
+    fn tell(
+        &self,
+        out: &Path,
+        (stem, student): (&str, &str),
+        words: &Words,
+    ) -> Result<String, Failure> {
+        let attempts: Vec<_> = match &self.graded.found {
+            Found::Attempts(all) => all.iter().map(|it| (&it.attempt, &it.score)).collect(),
+            Found::Otherwise(_) => Vec::new(),
+        };
+        let name = format!("{stem}.report.html");
+        let title = (student, words.language);
+        let page = told_page(title, &attempts, &self.graded.lesson, &words.texts);
+        write_over(&out.join(&name), page.as_bytes())?;
+        Ok(name)
     }
 }
 
@@ -227,57 +319,6 @@ fn pseudonym(store: Option<&Store>, session: &Session) -> Result<Option<String>,
     let Some(store) = store else { return Ok(None) };
     let found = store.pseudonym_of(session.attempt_id(0)).other()?;
     Ok(found.map(|it| it.to_string()))
-}
-
-/// The tracks that are named, and those in the folders that are, by name.
-fn tracks(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut all = Vec::new();
-    for path in named {
-        if !path.is_dir() {
-            all.push(path.clone());
-            continue;
-        }
-        let mut inside = Vec::new();
-        let unlisted = |error| {
-            format!(
-                "{}: cannot be listed: {error}; may you read it?",
-                path.display()
-            )
-        };
-        for entry in std::fs::read_dir(path).map_err(unlisted).other()? {
-            let file = entry.other()?.path();
-            let track = file
-                .extension()
-                .is_some_and(|it| it.eq_ignore_ascii_case("mcap"));
-            // What macOS lays beside a file on other file systems.
-            let is_beside = file
-                .file_name()
-                .is_some_and(|name| name.as_encoded_bytes().starts_with(b"._"));
-            if track && !is_beside && !file.is_dir() {
-                inside.push(file);
-            }
-        }
-        if inside.is_empty() {
-            return Err(format!(
-                "{}: holds no recordings; name a folder with files that end in .mcap, or such files",
-                path.display()
-            ))
-            .input();
-        }
-        inside.sort();
-        all.append(&mut inside);
-    }
-    Ok(all)
-}
-
-/// A name that two of the tracks have. Some file systems do not tell capitals from small letters.
-fn same_name(tracks: &[PathBuf]) -> Option<String> {
-    let mut names = BTreeSet::new();
-    tracks.iter().find_map(|file| {
-        let name = stem(&file.display().to_string());
-        let again = !names.insert(name.to_lowercase());
-        again.then_some(name)
-    })
 }
 
 fn file_name(file: &Path) -> String {

@@ -65,6 +65,12 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         console: None,
         course,
         language: args.language,
+        // A pseudonym is there so that the name is not.
+        student: args
+            .console
+            .name
+            .clone()
+            .filter(|_| args.keep.pseudonym.is_none()),
     };
     // Before the console's address is printed: without a runtime there is nothing to direct.
     #[cfg(feature = "vr")]

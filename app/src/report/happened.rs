@@ -1,51 +1,101 @@
 //! The first screen: what happened, in words and points, each with its moment of the film.
 
 use maud::{Markup, html};
+#[cfg(feature = "class")]
+use vitriol_lesson::Language;
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
 use vitriol_lesson::{Attempt, Cap, Evidence, Score, ScoreLine, Sentence, Texts, Tone, sentences};
+#[cfg(feature = "class")]
+use vitriol_run::page::page_in;
 
+#[cfg(feature = "class")]
+use super::html::STYLE;
 use super::model::Report;
 
 impl Report {
     /// Words and points of each attempt, beside the film.
     pub(super) fn happened(&self, texts: &Texts) -> Markup {
         let film = self.film.is_some();
-        let several = self.attempts.len() > 1;
-        let attempts = || (1..).zip(self.attempts.iter().zip(&self.score));
+        let attempts: Vec<_> = self.attempts.iter().zip(&self.score).collect();
         html! {
             section.happened.beside[film] {
                 @if film { div.films { (self.films()) } }
                 div {
-                    h2 { "What happened" }
-                    @for (number, (attempt, score)) in attempts() {
-                        @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
-                        article.attempt {
-                            (contact)
-                            (heading((number, several), attempt, score, texts))
-                            (told(&said, film))
-                        }
-                    }
+                    (words(&attempts, texts, film))
                     (self.instructed(film))
                 }
             }
-            // One that nothing can be judged of has said so above.
-            @for (number, (attempt, score)) in attempts().filter(|(_, (_, score))| score.of > 0) {
-                section id=(format!("score-{number}")) {
-                    h2 {
-                        "Score"
-                        @if several { " of attempt " (number) ", " (texts.scene(&attempt.scene)) }
-                    }
-                    (points(score, texts, film))
-                }
+            (results(&attempts, &self.lesson, texts, film))
+        }
+    }
+}
+
+/// A page on a recording that nobody replayed: words, points and lesson of its attempts, without a film. `language` is that of `texts`.
+#[cfg(feature = "class")]
+pub fn told_page(
+    (title, language): (&str, Language),
+    attempts: &[(&Attempt, &Score)],
+    lesson: &[Verdict],
+    texts: &Texts,
+) -> String {
+    let body = html! {
+        main {
+            header {
+                p.kicker { "Vitriol · what a recording says" }
+                h1 { (title) }
             }
-            @for (number, verdict) in (1..).zip(&self.lesson) {
-                section id=(format!("lesson-{number}")) {
-                    h2 {
-                        "Lesson: " (texts.lesson(&verdict.lesson)) ", " (texts.mode(verdict.mode))
-                        @if self.lesson.len() > 1 { ", begun for the " (number) ". time" }
-                    }
-                    (judged(verdict, texts, film))
+            section.happened { (words(attempts, texts, false)) }
+            (results(attempts, lesson, texts, false))
+        }
+    };
+    page_in(language.code(), title, STYLE, &body)
+}
+
+/// What was done in each attempt.
+fn words(attempts: &[(&Attempt, &Score)], texts: &Texts, film: bool) -> Markup {
+    let several = attempts.len() > 1;
+    html! {
+        h2 { "What happened" }
+        @for (number, (attempt, score)) in (1..).zip(attempts) {
+            @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
+            article.attempt {
+                (contact)
+                (heading((number, several), attempt, score, texts))
+                (told(&said, film))
+            }
+        }
+    }
+}
+
+/// Points of each attempt, and results of the lesson.
+fn results(
+    attempts: &[(&Attempt, &Score)],
+    lesson: &[Verdict],
+    texts: &Texts,
+    film: bool,
+) -> Markup {
+    let several = attempts.len() > 1;
+    // One that nothing can be judged of has said so among the words.
+    let judged_of = (1_usize..)
+        .zip(attempts)
+        .filter(|(_, (_, score))| score.of > 0);
+    html! {
+        @for (number, (attempt, score)) in judged_of {
+            section id=(format!("score-{number}")) {
+                h2 {
+                    "Score"
+                    @if several { " of attempt " (number) ", " (texts.scene(&attempt.scene)) }
                 }
+                (points(score, texts, film))
+            }
+        }
+        @for (number, verdict) in (1_usize..).zip(lesson) {
+            section id=(format!("lesson-{number}")) {
+                h2 {
+                    "Lesson: " (texts.lesson(&verdict.lesson)) ", " (texts.mode(verdict.mode))
+                    @if lesson.len() > 1 { ", begun for the " (number) ". time" }
+                }
+                (judged(verdict, texts, film))
             }
         }
     }

@@ -14,7 +14,7 @@ use super::plot::{Curve, Plot, over_time};
 const AIR_DENSITY: f64 = 1.204;
 
 const SCRIPT: &str = include_str!("report.js");
-const STYLE: &str = include_str!("report.css");
+pub(super) const STYLE: &str = include_str!("report.css");
 
 impl Report {
     /// The report as a web page: what happened comes first, where anybody looked for it, and the solver's figures are folded below.

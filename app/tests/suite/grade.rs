@@ -2,6 +2,7 @@
 //! says to it, with an experiment whose answers are known.
 
 mod lesson;
+mod teacher;
 mod toy;
 
 use std::fs;
@@ -20,7 +21,7 @@ const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
 
 use toy::{DEVICE, Made, SCENE, Toy, class, events, graded, line, nobody, put, read, recording};
 
-/// Twelve are read without a device; a spoiled file is a line among them, and the exit code says it at the end.
+/// Twelve are read without a device; a spoiled file is a line among them and one warning, and the exit code says it where it is asked to.
 #[test]
 fn a_bad_file_is_a_line_and_stops_no_other() {
     let folder = tempfile::tempdir().unwrap();
@@ -52,8 +53,13 @@ fn a_bad_file_is_a_line_and_stops_no_other() {
     }
     // As a program of its own.
     let arguments = ["grade", ".", "--scene", SCENE, "--json"];
+    let strict = VITRIOL.run(folder.path(), &[&arguments[..], &["--strict"]].concat());
+    assert_eq!(strict.status.code(), Some(2));
     let output = VITRIOL.run(folder.path(), &arguments);
-    assert_eq!(output.status.code(), Some(2));
+    let warned = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{warned}");
+    assert_eq!(warned.matches("student-05.mcap").count(), 1, "{warned}");
+    assert_eq!(warned.matches("notes.txt").count(), 1, "{warned}");
     let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(told["graded"], 11);
     assert_eq!(told["lines"][5]["status"], "failed");
@@ -359,7 +365,10 @@ fn a_danger_caps_the_points_and_is_named() {
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     // By the mark Excel knows its encoding.
     assert!(table.starts_with('\u{feff}'), "{table}");
-    assert!(table.contains(",points,of,caps,finished,"), "{table}");
+    assert!(
+        table.contains(",points,of,caps,what went wrong first,at [s],report,finished,"),
+        "{table}"
+    );
     assert!(table.contains(why), "{table}");
     let told = VITRIOL.run(here, &["grade", ".", "--scene", SCENE]);
     let told = String::from_utf8(told.stdout).unwrap();

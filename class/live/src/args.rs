@@ -17,7 +17,8 @@ pub struct ConsoleArgs {
     /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
     #[arg(long, value_name = "HUB", value_parser = hub_address)]
     pub hub: Option<HubAddress>,
-    /// What the console calls this student; without it the computer's name
+    /// This student's name, on the console, in a recording of `vitriol vr` without a pseudonym, and so in grades; without it
+    /// the console shows the computer's name
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
 }

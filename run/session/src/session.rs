@@ -103,6 +103,8 @@ pub struct Options {
     pub course: Option<Course>,
     /// Language of panel and announcements.
     pub language: Language,
+    /// The student's name, for the recording.
+    pub student: Option<String>,
 }
 
 /// A session as it ends.
@@ -234,7 +236,11 @@ impl Session {
         // After what fails for a user's mistake, so that a session that never was leaves no file.
         let mut run = Run::new(&options.plan.scene, world);
         if let Some(file) = &options.record {
-            let metadata = metadata(&options.plan, options.course.as_ref(), &statement(gpu));
+            let metadata = metadata(
+                &options.plan,
+                (options.course.as_ref(), options.student.as_deref()),
+                &statement(gpu),
+            );
             let recording = TrackRecording::create(file, &metadata);
             run.record(recording.map_err(track::blame)?);
         }

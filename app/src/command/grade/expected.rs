@@ -4,10 +4,10 @@
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::{Attempt, Lesson, Mode, Rubric};
 use vitriol_record::Uuid;
-use vitriol_run::track::PRESET;
+use vitriol_run::track::{LESSON, PRESET};
 use vitriol_run::{Action, Blame, Failure, Scenes, in_a_line};
-use vitriol_sim::scene::Preset;
-use vitriol_xr::track::Track;
+use vitriol_sim::scene::{Preset, Scene};
+use vitriol_xr::track::{Track, TrackMetadata};
 
 use crate::command::course::{self, AskedLesson};
 use crate::command::recorded::actions;
@@ -19,6 +19,8 @@ pub struct Expected {
     pub asked: Asked,
     /// The lesson, and its mode.
     pub lesson: Option<(Lesson, Mode)>,
+    /// The scene as it was named: a built-in one, or a file.
+    pub source: String,
     /// Text of the scene.
     text: String,
 }
@@ -40,35 +42,75 @@ pub struct Asked {
 }
 
 impl Expected {
-    /// That a track was made with this scene, by name or file, preset and lesson.
+    /// What tracks may be made with: these scenes, by name or file, of which some have a lesson. Without scenes those of the lessons;
+    /// without lessons all built-in ones.
     ///
     /// # Errors
-    /// [`Failure::Input`] where there is no such scene, or something is wrong with it, or the lesson is of another one.
-    pub fn new(
-        scene: &str,
+    /// [`Failure::Input`] where there is no such scene, or something is wrong with it, or a lesson is of another one.
+    pub fn all(
+        scenes: &[String],
         preset: Option<Preset>,
-        lesson: Option<(Lesson, Mode)>,
-    ) -> Result<Self, Failure> {
+        lessons: &[(Lesson, Mode)],
+    ) -> Result<Vec<Self>, Failure> {
+        let named: Vec<&str> = match (scenes, lessons) {
+            ([], []) => Scene::builtin_names(),
+            ([], _) => lessons.iter().map(|(it, _)| it.scene.as_str()).collect(),
+            _ => scenes.iter().map(String::as_str).collect(),
+        };
+        let plain = named.into_iter().map(|it| Self::of_scene(it, preset));
+        let plain = plain.collect::<Result<Vec<_>, _>>()?;
+        let mut all: Vec<Self> = Vec::new();
+        for lesson in lessons {
+            let tried = plain.iter().map(|it| it.with_lesson(lesson));
+            all.extend(tried.reduce(Result::or).transpose()?);
+        }
+        for it in plain {
+            if !all.iter().any(|of| of.asked.scene == it.asked.scene) {
+                all.push(it);
+            }
+        }
+        Ok(all)
+    }
+
+    fn of_scene(scene: &str, preset: Option<Preset>) -> Result<Self, Failure> {
         let mut scenes = Scenes::default();
         let name = scenes.open(scene)?;
         scenes.get(&name)?;
         let text = scenes.text(&name).ok_or("the scene has no text").other()?;
-        if let Some((lesson, mode)) = &lesson {
-            course::judging((lesson, *mode), (&name, Some(&*text)))?;
-        }
-        let of_lesson = lesson.as_ref();
-        let rubric = of_lesson.map(|(lesson, _)| lesson.rubric());
         Ok(Self {
             asked: Asked {
                 scene_id: Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).to_string(),
                 preset: preset.map(|it| it.name().to_owned()),
-                rubric: rubric.unwrap_or_default(),
-                lesson: of_lesson.map(|(lesson, mode)| AskedLesson::of(lesson, *mode)),
+                rubric: Rubric::default(),
+                lesson: None,
                 scene: name,
             },
             text: text.into_owned(),
-            lesson,
+            lesson: None,
+            source: scene.to_owned(),
         })
+    }
+
+    fn with_lesson(&self, (lesson, mode): &(Lesson, Mode)) -> Result<Self, Failure> {
+        course::judging(
+            (lesson, *mode),
+            (&self.asked.scene, Some(self.text.as_str())),
+        )?;
+        let mut taught = self.clone();
+        taught.asked.rubric = lesson.rubric();
+        taught.asked.lesson = Some(AskedLesson::of(lesson, *mode));
+        taught.lesson = Some((lesson.clone(), *mode));
+        Ok(taught)
+    }
+
+    /// The one that a track is graded by: of its scene, and of the lesson that it names if that is among them. `None` where all is
+    /// empty; one that the track was not made with tells so.
+    pub fn of_track<'a>(all: &'a [Self], made: &TrackMetadata) -> Option<&'a Self> {
+        let lesson = made.parameters.get(LESSON);
+        let of_scene = || all.iter().filter(move |it| it.asked.scene == made.scene);
+        let of_lesson = |it: &&Self| it.asked.lesson.as_ref().map(|it| &it.name) == lesson;
+        let found = of_scene().find(of_lesson).or_else(|| of_scene().next());
+        found.or(all.first())
     }
 
     /// In what the track was made otherwise, in a few words; `None` where nothing is known.

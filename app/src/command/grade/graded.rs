@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::Verdict;
-use vitriol_lesson::{Attempt, Score};
+use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_run::output::write_over;
 use vitriol_run::{Blame, Failure};
 
@@ -105,6 +105,15 @@ impl Graded {
                 .is_some_and(|it| it.tolerance == by && it.asked_device.as_deref() == device),
         };
         (same && enough).then_some(found)
+    }
+
+    /// Scores its attempts anew, in these texts: an earlier call may have been for another language.
+    pub fn score_again(&mut self, texts: &Texts) {
+        if let Found::Attempts(all) = &mut self.found {
+            for it in all {
+                it.score = Score::of(&it.attempt, &self.asked.rubric, texts);
+            }
+        }
     }
 
     /// Keeps it, in place of what an earlier call left.

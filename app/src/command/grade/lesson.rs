@@ -10,6 +10,8 @@ use super::agreement::{Agreement, Tolerance};
 /// A lesson's part of a line of the table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct OfLesson {
+    /// The lesson's name.
+    pub name: String,
     /// Points.
     pub points: u32,
     /// Points that could be had.
@@ -23,6 +25,8 @@ pub struct OfLesson {
 pub struct Item {
     /// Its id.
     pub id: String,
+    /// Whether it is a rule.
+    pub rule: bool,
     /// In a word: a step was done, failed or missed, a rule kept or broken.
     pub became: &'static str,
     /// Points.
@@ -36,11 +40,13 @@ impl OfLesson {
     pub fn of(verdict: &Verdict) -> Self {
         let item = |line: &VerdictLine| Item {
             id: line.id.clone(),
+            rule: line.rule,
             became: line.became().name(),
             points: line.points,
             of: line.of,
         };
         Self {
+            name: verdict.lesson.clone(),
             points: verdict.points,
             of: verdict.of,
             items: verdict.lines.iter().map(item).collect(),
@@ -60,7 +66,7 @@ impl OfLesson {
     }
 }
 
-/// A lesson's columns of the table.
+/// A lesson, and what it has columns for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Columns {
     /// Its name.
@@ -86,32 +92,53 @@ impl Columns {
         }
     }
 
-    /// Their heads.
-    pub fn heads(&self) -> Vec<String> {
-        let item = |(at, id): (usize, &String)| match at < self.steps {
-            true => format!("step {id}"),
-            false => format!("rule {id}"),
-        };
-        let items = self.items.iter().enumerate().map(item);
-        let points = ["lesson [points]", "lesson of"].map(str::to_owned);
-        points.into_iter().chain(items).collect()
+    fn heads(&self) -> impl Iterator<Item = String> {
+        let items = self.items.iter().enumerate();
+        items.map(move |(at, id)| head(at >= self.steps, id))
     }
+}
 
-    /// Their cells in a line: empty where it has none.
-    pub fn cells(&self, line: Option<&OfLesson>) -> Vec<String> {
-        let Some(line) = line else {
-            return vec![String::new(); 2 + self.items.len()];
-        };
-        let cell = |id: &String| {
-            let item = line.items.iter().find(|it| it.id == *id);
-            item.map_or_else(String::new, |it| it.became.to_owned())
-        };
-        let points = [line.points, line.of].map(|it| it.to_string());
-        points
-            .into_iter()
-            .chain(self.items.iter().map(cell))
-            .collect()
+const NAME: &str = "lesson";
+const POINTS: &str = "lesson [points]";
+const OF: &str = "lesson of";
+
+fn head(rule: bool, id: &str) -> String {
+    let kind = if rule { "rule" } else { "step" };
+    format!("{kind} {id}")
+}
+
+/// Heads of the columns of these lessons: a step or rule that several have is in one column.
+pub fn heads(lessons: &[Columns]) -> Vec<String> {
+    if lessons.is_empty() {
+        return Vec::new();
     }
+    let mut heads = [NAME, POINTS, OF].map(str::to_owned).to_vec();
+    for head in lessons.iter().flat_map(Columns::heads) {
+        if !heads.contains(&head) {
+            heads.push(head);
+        }
+    }
+    heads
+}
+
+/// A line's cells under these heads: empty where it has none.
+pub fn cells(heads: &[String], line: Option<&OfLesson>) -> Vec<String> {
+    let cell = |under: &String| {
+        let Some(line) = line else {
+            return String::new();
+        };
+        match under.as_str() {
+            NAME => line.name.clone(),
+            POINTS => line.points.to_string(),
+            OF => line.of.to_string(),
+            under => {
+                let mut items = line.items.iter();
+                let item = items.find(|it| head(it.rule, &it.id) == under);
+                item.map_or_else(String::new, |it| it.became.to_owned())
+            }
+        }
+    };
+    heads.iter().map(cell).collect()
 }
 
 impl Agreement {

@@ -1,25 +1,26 @@
 //! The table of a class: for people, for a spreadsheet, for other programs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_lesson::{Criterion, SPREADSHEET_MARK, What, spreadsheet_text};
+use vitriol_lesson::{Cap, Criterion, Evidence, Lesson, SPREADSHEET_MARK, What, spreadsheet_text};
 use vitriol_run::{Blame, Failure, in_a_line};
 
 use super::graded::{Found, Graded};
-use super::lesson::{Columns, OfLesson};
+use super::lesson::{self, Columns, OfLesson};
+use super::tracks;
 use super::verify::Verdict;
-use crate::command::capped;
+use super::wrong::Words;
 
 /// What `vitriol grade` prints.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Class {
-    /// The scene that they are graded by.
-    pub scene: String,
-    /// The lesson that they are graded by, if they are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lesson: Option<Columns>,
+    /// The scenes of those that are graded.
+    pub scenes: BTreeSet<String>,
+    /// The lessons that they are graded by.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lessons: Vec<Columns>,
     /// Tracks that are graded.
     pub graded: usize,
     /// Tracks that were made otherwise.
@@ -30,20 +31,28 @@ pub struct Class {
     pub taken: usize,
     /// A line an attempt, in the order of the tracks.
     pub lines: Vec<Line>,
+    /// Files and folders that hold no recording.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub passed_over: Vec<String>,
     /// The table for a spreadsheet, where one is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<String>,
+    /// The table for a browser, likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub page: Option<String>,
 }
 
 /// A line of the table: an attempt, or a track that is not graded.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Line {
-    /// Pseudonym, or name of the track's file.
+    /// Pseudonym, or name of the student's folder, or the one that the student gave, or of the track's file.
     pub student: String,
     /// The track's file.
     pub track: String,
     /// Whether it is graded.
     pub status: Status,
+    /// The scene of an attempt.
+    pub scene: String,
     /// The attempt, counted from 1.
     pub attempt: Option<u32>,
     /// Points.
@@ -53,6 +62,11 @@ pub struct Line {
     /// What caps the points, with its evidence; the lowest cap first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub caps: Vec<String>,
+    /// What went wrong first, in a sentence; `None` where nothing did.
+    pub first_wrong: Option<Evidence>,
+    /// Name of the page on the track, beside the table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub report: Option<String>,
     /// Whether it came to its end.
     pub finished: Option<bool>,
     /// Points by criterion, and of how many; of those that could be judged.
@@ -92,27 +106,39 @@ impl Status {
 }
 
 impl Class {
-    /// Adds the lines of a track.
-    pub fn add(&mut self, (student, track): (String, String), ended: &Ended) {
-        let line = |status, note: &str| Line {
+    /// Adds the lines of a track, whose page has that name.
+    pub fn add(
+        &mut self,
+        (student, track, report): (String, String, Option<String>),
+        ended: &Ended<'_>,
+        words: &Words,
+    ) {
+        let line = |status, note: String| Line {
             student: student.clone(),
             track: track.clone(),
+            report: report.clone(),
             status,
-            note: note.into(),
+            note,
             ..Line::default()
         };
-        let (graded, taken) = match ended {
+        let (graded, taken, lesson) = match ended {
             Ended::Failed(error) => {
                 self.failed += 1;
-                self.lines.push(line(Status::Failed, error));
+                let why = words.grades.unread(error);
+                self.lines.push(line(Status::Failed, why));
                 return;
             }
-            Ended::Well { graded, taken } => (graded, *taken),
+            Ended::Well {
+                graded,
+                taken,
+                lesson,
+            } => (graded, *taken, *lesson),
         };
         self.taken += usize::from(taken);
         let attempts = match &graded.found {
             Found::Otherwise(why) => {
                 self.otherwise += 1;
+                let why = words.grades.otherwise(why);
                 self.lines.push(line(Status::Otherwise, why));
                 return;
             }
@@ -120,32 +146,42 @@ impl Class {
         };
         self.graded += 1;
         let verified = graded.verified.as_ref();
-        let lessons = graded
-            .lesson
-            .iter()
-            .map(Some)
-            .chain(std::iter::repeat(None));
-        for ((number, scored), lesson) in (1..).zip(attempts).zip(lessons) {
+        let verdicts = graded.lesson.iter().map(Some);
+        let verdicts = verdicts.chain(std::iter::repeat(None));
+        for ((number, scored), verdict) in (1..).zip(attempts).zip(verdicts) {
             let (attempt, score) = (&scored.attempt, &scored.score);
             let mut incidents = BTreeMap::new();
             for incident in &attempt.incidents {
                 *incidents.entry(incident.what.kind()).or_insert(0) += 1;
             }
+            let cap = |it: &Cap| match it.evidence.first() {
+                Some(first) => format!("{} {}", it.text, words.told(first)),
+                None => it.text.clone(),
+            };
             let lines = score.lines.iter();
             let said = verified.map(|it| it.text()).unwrap_or_default();
+            self.scenes.insert(attempt.scene.clone());
             self.lines.push(Line {
+                scene: attempt.scene.clone(),
                 attempt: Some(number),
                 points: Some(score.points),
                 of: Some(score.of),
-                caps: score.caps.iter().map(capped::said).collect(),
+                caps: score.caps.iter().map(|it| in_a_line(&cap(it))).collect(),
+                first_wrong: words.first_wrong(scored, lesson.zip(verdict)),
                 finished: Some(attempt.ending.is_some()),
                 criteria: lines.map(|it| (it.criterion, [it.points, it.of])).collect(),
                 incidents,
-                lesson: lesson.map(OfLesson::of),
+                lesson: verdict.map(OfLesson::of),
                 verified: verified.map(|it| it.verdict()),
-                ..line(Status::Graded, &said)
+                ..line(Status::Graded, said)
             });
         }
+    }
+
+    /// The first few of the tracks that cannot be graded, in a line.
+    pub fn bad(&self) -> String {
+        let bad = self.lines.iter().filter(|it| it.status == Status::Failed);
+        tracks::short(&bad.map(|it| it.track.clone()).collect::<Vec<_>>())
     }
 
     /// The number of tracks whose recording differs from its simulation.
@@ -158,17 +194,19 @@ impl Class {
 }
 
 /// How a track ended.
-#[derive(Clone, Debug)]
-pub enum Ended {
+#[derive(Clone, Copy, Debug)]
+pub enum Ended<'a> {
     /// It was read.
     Well {
         /// What is in it.
-        graded: Box<Graded>,
+        graded: &'a Graded,
         /// Whether an earlier call left that.
         taken: bool,
+        /// The lesson that it is judged by.
+        lesson: Option<&'a Lesson>,
     },
     /// It could not be.
-    Failed(String),
+    Failed(&'a str),
 }
 
 /// The table for people.
@@ -218,11 +256,13 @@ pub fn text(class: &Class) -> String {
             let _ = writeln!(text, "{student:<a$}  {points:<b$}  {verified:<c$}  {notes}");
         }
     }
+    let scenes: Vec<String> = class.scenes.iter().map(|it| in_a_line(it)).collect();
+    let by = if scenes.is_empty() { "" } else { " by " };
     let _ = writeln!(
         text,
-        "\n{} graded by {}, {} made otherwise, {} failed; {} of them as an earlier call left them",
+        "\n{} graded{by}{}, {} made otherwise, {} failed; {} of them as an earlier call left them",
         class.graded,
-        in_a_line(&class.scene),
+        scenes.join(", "),
         class.otherwise,
         class.failed,
         class.taken
@@ -238,6 +278,9 @@ pub fn text(class: &Class) -> String {
     if let Some(table) = &class.table {
         let _ = writeln!(text, "table   {table}");
     }
+    if let Some(page) = &class.page {
+        let _ = writeln!(text, "page    {page}");
+    }
     text
 }
 
@@ -252,25 +295,42 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
         .from_writer(&mut bytes);
     let criteria = Criterion::ALL.map(|it| format!("{} [points]", kebab(it)));
     let head = [
-        "student", "track", "status", "attempt", "points", "of", "caps", "finished",
+        "student",
+        "track",
+        "status",
+        "scene",
+        "attempt",
+        "points",
+        "of",
+        "caps",
+        "what went wrong first",
+        "at [s]",
+        "report",
+        "finished",
     ];
     let tail = ["verified", "note"];
+    let lesson = lesson::heads(&class.lessons);
     let head = head.into_iter().chain(criteria.iter().map(String::as_str));
-    let of_lesson = class.lesson.as_ref();
-    let lesson = of_lesson.map(Columns::heads).unwrap_or_default();
     let head = head.chain(What::KINDS);
     let head = head.chain(lesson.iter().map(String::as_str)).chain(tail);
     writer.write_record(head).other()?;
     for line in &class.lines {
+        let wrong = line.first_wrong.as_ref();
         let number = |value: Option<u32>| value.map_or_else(String::new, |it| it.to_string());
         let mut row = vec![
             spreadsheet_text(&line.student),
             spreadsheet_text(&line.track),
             line.status.name().to_owned(),
+            spreadsheet_text(&line.scene),
             number(line.attempt),
             number(line.points),
             number(line.of),
             spreadsheet_text(&line.caps.join(" ")),
+            spreadsheet_text(wrong.map_or("", |it| it.text.as_str())),
+            wrong
+                .and_then(|it| it.t_s)
+                .map_or_else(String::new, |t_s| format!("{t_s:.1}")),
+            spreadsheet_text(line.report.as_deref().unwrap_or_default()),
             line.finished
                 .map_or("", |it| if it { "yes" } else { "no" })
                 .to_owned(),
@@ -281,11 +341,7 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
         let none = line.attempt.map(|_| 0);
         let count = |it: &str| number(line.incidents.get(it).copied().or(none));
         row.extend(What::KINDS.map(count));
-        row.extend(
-            of_lesson
-                .iter()
-                .flat_map(|it| it.cells(line.lesson.as_ref())),
-        );
+        row.extend(lesson::cells(&lesson, line.lesson.as_ref()));
         row.push(line.verified.map_or("", Verdict::name).to_owned());
         row.push(spreadsheet_text(&line.note));
         writer.write_record(row).other()?;

@@ -77,7 +77,7 @@ impl Verified {
         let ask = Ask {
             track: &name,
             // Before what the track carries under that name.
-            scene: Some(&args.scene),
+            scene: Some(&expected.source),
             preset: args.preset,
             device: args.device.as_deref(),
             accept_truncated: args.accept_truncated,

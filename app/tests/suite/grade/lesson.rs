@@ -167,7 +167,7 @@ fn a_class_is_graded_by_its_lesson() {
     let cells = ",34,100,done,done,done,missed,missed,missed,missed,missed,kept,kept,kept,broken,,";
     assert!(row("ada,").ends_with(cells), "{table}");
     assert!(
-        row("none,").contains(",,,,,,,,,,,,,,,made without"),
+        row("none,").contains(",,,,,,,,,,,,,,,Not graded: made without"),
         "{table}"
     );
     let widths: Vec<usize> = table.lines().map(|it| it.matches(',').count()).collect();
@@ -177,6 +177,23 @@ fn a_class_is_graded_by_its_lesson() {
     assert_eq!(read(here, &to).taken, 7);
     let without = ["--out", out.to_str().unwrap()];
     assert_eq!(read(here, &without).taken, 0);
+}
+
+/// Where no incident came before it, a broken rule or a missed step is what went wrong first; what was asked stands before it.
+#[test]
+fn what_a_lesson_asked_may_be_what_went_wrong_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut track = taught(&progress(None));
+    track.events = recording(&events(0.0)).events;
+    put(folder.path(), "ada.mcap", &track);
+    let class = read(folder.path(), &BY);
+    let first = line(&class, "ada").first_wrong.as_ref().unwrap();
+    assert_eq!(first.t_s, Some(0.35));
+    let text = first.text.replace('\u{a0}', " ");
+    assert!(
+        text.starts_with("Spill no more than 1 mL. Spilt: 1.5"),
+        "{text}"
+    );
 }
 
 #[test]

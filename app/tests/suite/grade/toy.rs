@@ -204,7 +204,17 @@ pub(super) fn graded(
     more: &[&str],
     prepare: impl Fn(&Setup<'_>) -> Made + Sync,
 ) -> Result<(Class, Option<Failure>), Failure> {
-    let start = ["vitriol", "grade", what.to_str().unwrap(), "--scene", SCENE];
+    let of_scene = [&["--scene", SCENE][..], more].concat();
+    graded_by(what, &of_scene, prepare)
+}
+
+/// Likewise by what `more` says alone.
+pub(super) fn graded_by(
+    what: &Path,
+    more: &[&str],
+    prepare: impl Fn(&Setup<'_>) -> Made + Sync,
+) -> Result<(Class, Option<Failure>), Failure> {
+    let start = ["vitriol", "grade", what.to_str().unwrap()];
     let Command::Grade(args) = <Cli as clap::Parser>::parse_from(start.iter().chain(more)).command
     else {
         panic!("grade is parsed as another command");

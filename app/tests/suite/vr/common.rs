@@ -334,6 +334,7 @@ pub fn options_where(folder: &Path, change: impl Fn(String) -> String) -> Option
         console: None,
         course: None,
         language: Language::En,
+        student: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! The metadata of a session's recording.
 
 use vitriol_run::DeviceStatement;
-use vitriol_run::track::{DEVICE, DRIVER, LANGUAGE, LESSON, LESSON_HASH, MODE, PRESET};
+use vitriol_run::track::{DEVICE, DRIVER, LANGUAGE, LESSON, LESSON_HASH, MODE, PRESET, STUDENT};
 use vitriol_xr::track::TrackMetadata;
 
 use super::guide::Course;
@@ -11,7 +11,7 @@ use vitriol_run::choices::CHOICES;
 /// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
 pub(super) fn metadata(
     plan: &Plan,
-    course: Option<&Course>,
+    (course, student): (Option<&Course>, Option<&str>),
     device: &DeviceStatement,
 ) -> TrackMetadata {
     let choices = CHOICES.iter().map(|choice| choice.scene);
@@ -37,7 +37,8 @@ pub(super) fn metadata(
     });
     let parameters = parameters
         .into_iter()
-        .chain(of_course.into_iter().flatten());
+        .chain(of_course.into_iter().flatten())
+        .chain(student.map(|name| (STUDENT, name)));
     TrackMetadata {
         scene: plan.scene.clone(),
         seed: plan.seed,
@@ -81,12 +82,16 @@ mod tests {
     /// Its own scene, and those that the user may choose.
     #[test]
     fn it_has_the_text_of_each_scene() {
-        let metadata = metadata(&plan(), None, &device());
+        // No name is in a recording that was given none.
+        let unnamed = metadata(&plan(), (None, None), &device());
+        assert!(!unnamed.parameters.contains_key("student"));
+        let metadata = metadata(&plan(), (None, Some("Ada")), &device());
         assert_eq!((metadata.scene.as_str(), metadata.seed), ("two-flasks", 7));
         for (name, value) in [
             ("preset", "fast"),
             ("device", "a device"),
             ("driver", "a driver 1.2"),
+            ("student", "Ada"),
         ] {
             assert_eq!(metadata.parameters[name], value);
         }

@@ -1,0 +1,130 @@
+//! `grades.html`: the class in a browser, to be sorted and printed. It needs no other file but the pages that it links.
+
+use maud::{Markup, PreEscaped, html};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+use vitriol_lesson::Evidence;
+use vitriol_run::page::page_in;
+
+use super::table::{Class, Line};
+use super::wrong::Words;
+
+const STYLE: &str = include_str!("grades.css");
+const SCRIPT: &str = include_str!("grades.js");
+
+/// What a link needs no escape for. A student's name may hold anything.
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_');
+
+/// The page. Every string in it is escaped.
+pub fn html(class: &Class, words: &Words) -> String {
+    let texts = &words.grades;
+    let shown = Shown {
+        words,
+        scenes: class.scenes.len() > 1,
+        lessons: !class.lessons.is_empty(),
+    };
+    let body = html! {
+        main {
+            header {
+                p.kicker { "Vitriol" }
+                h1 { (texts.title) }
+                p.lead { (texts.counted(class.graded, class.otherwise, class.failed)) }
+                p.note.sort { (texts.sort) }
+            }
+            section {
+                table.grades {
+                    thead { (shown.heads()) }
+                    tbody { @for line in &class.lines { (shown.row(line)) } }
+                }
+            }
+        }
+        script { (PreEscaped(SCRIPT)) }
+    };
+    page_in(words.language.code(), &texts.title, STYLE, &body)
+}
+
+/// Which columns are shown.
+struct Shown<'a> {
+    words: &'a Words,
+    scenes: bool,
+    lessons: bool,
+}
+
+impl Shown<'_> {
+    fn heads(&self) -> Markup {
+        let texts = &self.words.grades;
+        html! {
+            tr {
+                (head(&texts.student, false))
+                @if self.scenes { (head(&texts.scene, false)) }
+                (head(&texts.points, true))
+                (head(&texts.first_wrong, true))
+                (head(&texts.cap, false))
+                @if self.lessons { (head(&texts.lesson, true)) }
+            }
+        }
+    }
+
+    fn row(&self, line: &Line) -> Markup {
+        let lesson = line.lesson.as_ref();
+        html! {
+            tr {
+                th scope="row" {
+                    @if let Some(report) = &line.report {
+                        a href=(utf8_percent_encode(report, ESCAPED).to_string()) { (line.student) }
+                    } @else {
+                        (line.student)
+                    }
+                }
+                @if self.scenes { td { (line.scene) } }
+                (points(line.points.zip(line.of)))
+                (self.first_wrong(line))
+                td { @for cap in &line.caps { p { (cap) } } }
+                @if self.lessons {
+                    (points(lesson.map(|it| (it.points, it.of))))
+                }
+            }
+        }
+    }
+
+    /// What went wrong first, sorted by its moment; what is not graded comes first, and where nothing went wrong last.
+    fn first_wrong(&self, line: &Line) -> Markup {
+        let texts = &self.words.grades;
+        let wrong = line.first_wrong.as_ref();
+        let moment = match wrong {
+            Some(Evidence { t_s: Some(t_s), .. }) => format!("{t_s:.3}"),
+            None if line.attempt.is_none() => "-1".to_owned(),
+            _ => "Infinity".to_owned(),
+        };
+        html! {
+            td data-sort=(moment) {
+                @if let Some(wrong) = wrong {
+                    p { (self.words.told(wrong)) }
+                } @else if line.attempt.is_some() {
+                    p { (texts.nothing) }
+                }
+                @if line.finished == Some(false) { p.note { (texts.broken_off) } }
+                @if !line.note.is_empty() { p.note { (line.note) } }
+            }
+        }
+    }
+}
+
+/// A column's head, which sorts by it. `number`: its cells are sorted as numbers.
+fn head(text: &str, number: bool) -> Markup {
+    html! {
+        th scope="col" aria-sort="none" data-number[number] {
+            button type="button" { (text) }
+        }
+    }
+}
+
+/// Points, of how many.
+fn points(points: Option<(u32, u32)>) -> Markup {
+    html! {
+        @if let Some((points, of)) = points.filter(|(_, of)| *of > 0) {
+            td.points-of data-sort=(points) { (points) " / " (of) }
+        } @else {
+            td.points-of data-sort="-1" { "–" }
+        }
+    }
+}

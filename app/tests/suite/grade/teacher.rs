@@ -1,0 +1,307 @@
+//! A class as a teacher has it: a folder for each student, several scenes in one call, bad files, and a table that says in the
+//! teacher's language what went wrong first.
+
+use std::fs;
+use std::path::Path;
+
+use vitriol::command::grade::{Class, Status};
+use vitriol_lesson::{Event, Lesson};
+use vitriol_sim::scene::Scene;
+#[cfg(target_os = "linux")]
+use vitriol_tests::devtools::Tab;
+use vitriol_xr::track::Track;
+
+use super::toy::graded_by;
+use super::{VITRIOL, events, graded, line, nobody, put, read, recording};
+
+/// A recording of another scene, in which the same was done.
+fn of_scene(scene: &str, spilt_ml: f64) -> Track {
+    let mut events = events(spilt_ml);
+    for event in &mut events {
+        if let Event::Begun { scene: begun, .. } = event {
+            *begun = scene.to_owned();
+        }
+    }
+    let mut track = recording(&events);
+    let text = Scene::builtin_text(scene).unwrap();
+    track.metadata.scene = scene.to_owned();
+    track.metadata.scenes = [(scene.to_owned(), Scene::complete(text).into_owned())].into();
+    track
+}
+
+/// What `grade` finds in the folder by its own means, with `out` beside it.
+fn class_of(here: &Path, more: &[&str]) -> Class {
+    let out = here.join("out");
+    let all = [&["--out", out.to_str().unwrap()][..], more].concat();
+    graded_by(&here.join("class"), &all, nobody).unwrap().0
+}
+
+/// Students' folders as a platform unpacks them: three scenes, two bad files, and what systems lay beside.
+fn unpack(here: &Path) {
+    let class = here.join("class");
+    let student = |name: &str| {
+        let folder = class.join(name);
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    };
+    put(&student("Ada"), "pour.mcap", &recording(&events(0.0)));
+    put(&student("Björn <b>"), "pour.mcap", &recording(&events(2.0)));
+    let inner = student("李雷/submission");
+    put(&inner, "pour.mcap", &of_scene("water-into-acid", 1.0));
+    put(&student("Íñigo"), "pour.mcap", &of_scene("hot-acid", 4.0));
+    fs::write(student("Cut").join("pour.mcap"), b"\x89MCAP0\r\n").unwrap();
+    fs::write(student("Empty").join("pour.mcap"), b"").unwrap();
+    let ada = student("Ada");
+    for name in [
+        "._pour.mcap",
+        ".DS_Store",
+        "Thumbs.db",
+        "Desktop.ini",
+        "~$essay.docx",
+    ] {
+        fs::write(ada.join(name), b"beside").unwrap();
+    }
+    let beside = student("__MACOSX/Ada");
+    fs::write(beside.join("pour.mcap"), b"beside").unwrap();
+    fs::write(ada.join("essay.docx"), b"an essay").unwrap();
+}
+
+/// Each student has a row with the name of the folder. Two bad files are rows and one warning, and no failure of the class.
+#[test]
+fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    unpack(here);
+    let class = class_of(here, &[]);
+    assert_eq!((class.graded, class.otherwise, class.failed), (4, 0, 2));
+    let scene = |student: &str| line(&class, student).scene.clone();
+    assert_eq!(scene("Ada"), "acid-into-water");
+    assert_eq!(scene("李雷"), "water-into-acid");
+    assert_eq!(scene("Íñigo"), "hot-acid");
+    for student in ["Cut", "Empty"] {
+        let line = line(&class, student);
+        assert_eq!((line.status, line.points), (Status::Failed, None));
+        let told = line.note.starts_with("Could not be read: ");
+        assert!(told && line.note.contains("pour.mcap"), "{}", line.note);
+    }
+    // What is no companion is named, once; the rest is not.
+    let essay = here.join("class/Ada/essay.docx");
+    assert_eq!(class.passed_over, [essay.display().to_string()]);
+    // Pages and results of a first call are no part of the class, wherever they lie.
+    let arguments = ["grade", "class", "--out", "class"];
+    for _ in 0..2 {
+        let output = VITRIOL.run(here, &arguments);
+        let warned = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{warned}");
+        for name in ["essay.docx", "Cut", "Empty"] {
+            assert_eq!(warned.matches(name).count(), 1, "{warned}");
+        }
+        assert!(
+            !warned.contains("grades.") && !warned.contains("report.html"),
+            "{warned}"
+        );
+    }
+    let strict = VITRIOL.run(here, &[&arguments[..], &["--strict"]].concat());
+    assert_eq!(strict.status.code(), Some(2));
+    // Where nothing is graded, the class fails without it.
+    let none = VITRIOL.run(here, &["grade", "class/Cut", "class/Empty"]);
+    assert_eq!(none.status.code(), Some(2));
+}
+
+/// Scenes that are named are those of the class; by a lesson are graded those that name it.
+#[test]
+fn scenes_and_lessons_are_those_that_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    unpack(here);
+    let scenes = ["--scene", "acid-into-water", "--scene", "hot-acid"];
+    let class = class_of(here, &scenes);
+    assert_eq!((class.graded, class.otherwise), (3, 1));
+    let other = line(&class, "李雷");
+    assert!(
+        other.note.contains("another scene: water-into-acid"),
+        "{}",
+        other.note
+    );
+    // A scene's own text is compared for each of them.
+    let mut weak = of_scene("hot-acid", 0.0);
+    let text = weak.metadata.scenes.get_mut("hot-acid").unwrap();
+    text.push_str("\n# weaker");
+    put(&here.join("class"), "weak.mcap", &weak);
+    let weak = class_of(here, &scenes);
+    assert!(line(&weak, "weak").note.contains("of another text"));
+
+    let mut taught = of_scene("fume-hood", 0.0);
+    let lesson = Lesson::builtin("examination").unwrap();
+    let mode = lesson.default_mode();
+    assert_eq!(lesson.scene, "fume-hood");
+    let made = [
+        ("lesson", "examination"),
+        ("lesson_hash", lesson.hash()),
+        ("mode", mode.name()),
+    ];
+    let made = made.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    taught.metadata.parameters.extend(made);
+    put(&here.join("class"), "taught.mcap", &taught);
+    let lessons = ["--lesson", "dilute", "--lesson", "examination"];
+    let class = class_of(here, &lessons);
+    assert_eq!(line(&class, "taught").status, Status::Graded);
+    let names: Vec<&str> = class.lessons.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["dilute", "examination"]);
+    // A step that both have is one column.
+    let table = fs::read_to_string(here.join("out/grades.csv")).unwrap();
+    let head = table.lines().next().unwrap();
+    assert_eq!(head.matches(",step pour,").count(), 1, "{head}");
+    assert!(
+        head.contains(",step measure,") && head.contains(",step sash,"),
+        "{head}"
+    );
+    assert!(line(&class, "Ada").note.contains("without a lesson"));
+}
+
+/// A row says what went wrong first, when, and where to read more, in the language of the call and of no earlier one.
+#[test]
+fn a_row_says_what_went_wrong_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    unpack(here);
+    for (language, moment, nothing, taken) in [
+        ("en", "At 0.2 s: Spilt", "Nothing went wrong.", 0),
+        ("de", "Bei 0,2 s: ", "Nichts ging schief.", 4),
+        ("es", "A los 0,2 s: ", "Nada salió mal.", 4),
+        ("zh", "在 0.2 s：", "没有出现错误。", 4),
+    ] {
+        let class = class_of(here, &["--language", language]);
+        assert_eq!(class.taken, taken);
+        let bjorn = line(&class, "Björn <b>");
+        let first = bjorn.first_wrong.as_ref().unwrap();
+        assert_eq!(first.t_s, Some(0.2));
+        // The texts themselves are those of the lesson's table, whose own tests read them.
+        let texts = vitriol_lesson::Texts::of(language.parse().unwrap()).unwrap();
+        let attempt = vitriol_lesson::Attempt::all(events(2.0)).remove(0);
+        assert_eq!(first.text, texts.wrong(&attempt, &attempt.incidents[0]));
+        let report = bjorn.report.as_deref().unwrap();
+        let told = fs::read_to_string(here.join("out").join(report)).unwrap();
+        let plain = first.text.replace('&', "&amp;");
+        assert!(told.contains(&plain), "{language}: {told}");
+        assert!(told.contains("Björn &lt;b&gt;") && !told.contains("Björn <b>"));
+        let page = fs::read_to_string(here.join("out/grades.html")).unwrap();
+        assert!(page.contains(&format!("lang=\"{language}\"")), "{language}");
+        assert!(
+            page.contains(moment) && page.contains(nothing),
+            "{language}: {page}"
+        );
+        // It loads nothing, and its links are escaped.
+        assert!(!page.contains("src=") && !page.contains("http"), "{page}");
+        assert!(
+            page.contains("href=\"Bj%C3%B6rn%20%3Cb%3E%20-%20pour.report.html\""),
+            "{page}"
+        );
+        assert!(page.contains("@media print"));
+        let table = fs::read(here.join("out/grades.csv")).unwrap();
+        // Excel and LibreOffice take the bytes after this mark for UTF-8.
+        assert_eq!(table[..3], [0xef, 0xbb, 0xbf]);
+        let table = String::from_utf8(table).unwrap();
+        let row = table
+            .lines()
+            .find(|it| it.starts_with("Björn <b>,"))
+            .unwrap();
+        assert!(row.contains(",0.2,Björn <b> - pour.report.html,"), "{row}");
+    }
+}
+
+/// A name that a student gave is shown in place of the file's, and is text in each table; the folder of a platform comes before it.
+#[test]
+fn a_student_has_the_name_that_was_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let class = here.join("class");
+    let named = |folder: &Path, file: &str, name: &str| {
+        fs::create_dir_all(folder).unwrap();
+        let mut track = recording(&events(0.0));
+        let parameters = &mut track.metadata.parameters;
+        parameters.insert("student".into(), name.into());
+        put(folder, file, &track);
+    };
+    named(&class, "a.mcap", "Ada Lovelace");
+    named(&class, "b.mcap", "=1+1");
+    named(&class.join("Grace"), "c.mcap", "Somebody else");
+    let read = class_of(here, &[]);
+    for student in ["Ada Lovelace", "=1+1", "Grace"] {
+        line(&read, student);
+    }
+    let table = fs::read_to_string(here.join("out/grades.csv")).unwrap();
+    assert!(table.contains("\r\n'=1+1,"), "{table}");
+    // A result names nobody, so the name is read again in what an earlier call left.
+    let result = fs::read_to_string(here.join("out/a.grade.json")).unwrap();
+    assert!(!result.contains("Ada"));
+    let again = class_of(here, &[]);
+    assert_eq!(again.taken, 3);
+    line(&again, "Ada Lovelace");
+}
+
+/// A danger may have no incident of its own: its cap names it then, with its moment.
+#[test]
+fn a_danger_before_any_incident_went_wrong_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let mut bare = events(2.0);
+    for event in &mut bare {
+        if let Event::Poured(pour) = event {
+            pour.bare_face = true;
+        }
+    }
+    put(here, "ada.mcap", &recording(&bare));
+    let class = read(here, &["--language", "de"]);
+    let ada = line(&class, "ada");
+    let first = ada.first_wrong.as_ref().unwrap();
+    // The pour without goggles began at 0.1 s, the spill at 0.2 s.
+    assert_eq!(first.t_s, Some(0.1));
+    assert!(ada.caps[0].starts_with(&first.text), "{:?}", ada.caps);
+    assert!(ada.caps[0].contains("Bei 0,1 s: "), "{:?}", ada.caps);
+    let (english, _) = graded(here, &[], nobody).unwrap();
+    assert!(line(&english, "ada").caps[0].starts_with("At most "));
+}
+
+/// A click on a head sorts the rows by it in a browser, a second click the other way round; links lead to pages that are there.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_page_sorts_in_a_browser() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    unpack(here);
+    class_of(here, &[]);
+    let Some(mut tab) = Tab::new() else { return };
+    let page = here.join("out/grades.html").canonicalize().unwrap();
+    tab.go(&format!("file://{}", page.display()));
+    tab.until("document.readyState === 'complete' && !!document.querySelector('table.grades')");
+    let mut sorted = |column: usize| {
+        tab.eval(&format!(
+            "document.querySelectorAll('thead button')[{column}].click()"
+        ));
+        let names = "[...document.querySelectorAll('tbody th')].map(it => it.textContent.trim())";
+        serde_json::from_value::<Vec<String>>(tab.eval(names)).unwrap()
+    };
+    let by_name = sorted(0);
+    let mut back = sorted(0);
+    back.reverse();
+    assert_eq!(by_name, back);
+    assert_eq!(by_name[..3], ["Ada", "Björn <b>", "Cut"]);
+    // Student, scene, points: what has none comes first, in the order that it had.
+    let by_points = sorted(2);
+    assert_eq!(by_points.len(), 6);
+    let mut none = by_points[..2].to_vec();
+    none.sort();
+    assert_eq!(none, ["Cut", "Empty"]);
+    // What went wrong first: all at 0.2 s, but for whom nothing went wrong.
+    assert_eq!(sorted(3).last().unwrap(), "Ada");
+    let head = "document.querySelectorAll('thead th')[3].getAttribute('aria-sort')";
+    assert_eq!(tab.eval(head), "ascending");
+    let links = "[...document.querySelectorAll('tbody a')].map(it => decodeURIComponent(it.getAttribute('href')))";
+    let links: Vec<String> = serde_json::from_value(tab.eval(links)).unwrap();
+    assert_eq!(links.len(), 4);
+    for link in links {
+        assert!(here.join("out").join(&link).is_file(), "{link}");
+    }
+    assert_eq!(tab.complaints(), Vec::<String>::new());
+}
