@@ -21,7 +21,7 @@ pub use class::{ForgetArgs, GradeArgs, HubArgs, KeepArgs};
 pub use drawn::DrawnArgs;
 #[cfg(feature = "export")]
 pub use export::ExportArgs;
-pub use lesson::{JudgeArgs, LessonArgs};
+pub use lesson::{JudgeArgs, LessonArgs, LessonCommand, NewLessonArgs};
 pub use picture::PictureArgs;
 #[cfg(feature = "session")]
 pub use vr::VrArgs;
@@ -64,7 +64,7 @@ pub enum Command {
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
     Scenes(ScenesArgs),
-    /// List the lessons, or check and show one
+    /// List the lessons, check and show one, or begin one of your own
     Lesson(LessonArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,

@@ -2,21 +2,26 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use vitriol_lesson::{Language, Mode};
 use vitriol_run::arguments::{file_of, preset};
 use vitriol_sim::scene::Preset;
 
 /// Arguments of `vitriol lesson`.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub struct LessonArgs {
-    /// A built-in lesson's name or a TOML file, which is checked and shown; without it all built-in ones are listed
+    /// What to do in place of showing lessons.
+    #[command(subcommand)]
+    pub command: Option<LessonCommand>,
+    /// A built-in lesson's name or a TOML file, which is checked and shown; all its faults are said, each with its line. Without it all
+    /// built-in ones are listed
     #[arg(value_name = "LESSON")]
     pub lesson: Option<String>,
     /// Language of its texts: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
-    /// The file of a built-in lesson, to begin an own one with
+    /// Print the file of a built-in lesson as it is; `vitriol lesson new` writes one to begin an own lesson with
     #[arg(long, requires = "lesson")]
     pub toml: bool,
     /// Make a film of the lesson as a track goes through it, with subtitles in each of its languages: this new MP4 file
@@ -37,6 +42,27 @@ pub struct LessonArgs {
     /// Number, or part of the name, of the Vulkan device that the film is made on
     #[arg(long, value_name = "DEVICE", requires = "film")]
     pub device: Option<String>,
+}
+
+/// What `vitriol lesson` does besides showing lessons.
+#[derive(Debug, Subcommand)]
+pub enum LessonCommand {
+    /// Write the file of a new lesson, with texts in one language and each key explained; no file is overwritten
+    New(NewLessonArgs),
+}
+
+/// Arguments of `vitriol lesson new`.
+#[derive(Debug, Args)]
+pub struct NewLessonArgs {
+    /// Its name, of a to z, 0 to 9 and -; the file NAME.toml is written here
+    #[arg(value_name = "NAME")]
+    pub name: String,
+    /// The built-in lesson that it begins as (see `vitriol lesson`)
+    #[arg(long, value_name = "LESSON", default_value = "dilute")]
+    pub from: String,
+    /// Language of its texts: en, de, es or zh; a lesson needs no other one
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
 }
 
 /// A lesson that is judged.

@@ -34,28 +34,37 @@ pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> 
 /// The lesson of that name or file, which its scene has all for.
 ///
 /// # Errors
-/// [`Failure::Input`] with file, field and what would be right.
+/// [`Failure::Input`] with each fault: file, line, field and what would be right.
 pub fn open(name: &str) -> Result<Lesson, Failure> {
     let builtin = Lesson::builtin_names();
-    let is_builtin = builtin.contains(&name);
-    if !is_builtin && files::is_absent(Path::new(name)) {
+    if !builtin.contains(&name) && files::is_absent(Path::new(name)) {
         let known = files::suggested(name, &builtin);
         return Err(format!(
             "lesson {name:?}: no such file; {known}; or give a path"
         ))
         .input();
     }
-    let lesson = if is_builtin {
-        Lesson::builtin(name).input()?
-    } else {
-        let text = files::read_text(Path::new(name), "lesson", LONGEST).input()?;
-        Lesson::parse(&text, name).input()?
+    let read;
+    let text = match Lesson::builtin_text(name) {
+        Some(text) => text,
+        None => {
+            read = files::read_text(Path::new(name), "lesson", LONGEST).input()?;
+            read.as_str()
+        }
     };
+    // A scene that cannot be read is one of the lesson's faults, beside the others.
+    Lesson::parse_for(text, name, |scene| {
+        let facts = facts(scene).map_err(|failure| failure.to_string())?;
+        Ok(Some(facts))
+    })
+    .input()
+}
+
+/// What the scene of that name or file has.
+fn facts(scene: &str) -> Result<SceneFacts, Failure> {
     let mut scenes = Scenes::default();
-    let scene = scenes.open(&lesson.scene)?;
-    let facts = SceneFacts::of(&lesson.scene, &scenes.get(&scene)?);
-    lesson.check(&facts).input()?;
-    Ok(lesson)
+    let opened = scenes.open(scene)?;
+    Ok(SceneFacts::of(scene, &scenes.get(&opened)?))
 }
 
 impl JudgeArgs {

@@ -1,6 +1,7 @@
-//! `vitriol lesson`: the lessons, what one asks for, and its film.
+//! `vitriol lesson`: the lessons, what one asks for, its film, and the file of a new one.
 
 mod film;
+mod new;
 mod subtitles;
 
 use serde::Serialize;
@@ -8,7 +9,7 @@ use vitriol_lesson::{Language, Lesson, Texts};
 use vitriol_run::units::count;
 use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit};
 
-use crate::cli::LessonArgs;
+use crate::cli::{LessonArgs, LessonCommand};
 use crate::command::course::open;
 
 /// What is printed of a lesson.
@@ -49,13 +50,17 @@ struct All {
 /// Runs `vitriol lesson`; `prepare` makes the experiment of a film.
 ///
 /// # Errors
-/// [`Failure::Input`] for a lesson that is not there, is spoiled, or asks for what its scene does not have; of a film also
+/// [`Failure::Input`] for a lesson that is not there, is spoiled, or asks for what its scene does not have, and for a new one whose file is
+/// there already; of a film also
 /// [`Failure::NoDevice`] and [`Failure::Other`], and no file is left of it then.
 pub fn run(
     args: &LessonArgs,
     format: Format,
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
+    if let Some(LessonCommand::New(new)) = &args.command {
+        return new::write(new, format);
+    }
     let texts = Texts::of(args.language).other()?;
     let modes = |told: &Told, lesson: &Lesson| -> String {
         let names = lesson.modes.iter().map(|mode| texts.mode(*mode));

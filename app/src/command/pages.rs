@@ -40,10 +40,12 @@ pub fn run(args: &PagesArgs, format: Format) -> Result<(), Failure> {
     let mut command = Cli::command();
     command.build();
     let mut files = Vec::new();
-    for page in [&command].into_iter().chain(command.get_subcommands()) {
-        if page.get_name() == "help" {
-            continue;
-        }
+    let commands = || {
+        let all = command.get_subcommands();
+        all.filter(|it| it.get_name() != "help")
+    };
+    let inner = commands().flat_map(|it| it.get_subcommands());
+    for page in [&command].into_iter().chain(commands()).chain(inner) {
         let page = Man::new(page.clone());
         let mut text = Vec::new();
         page.render(&mut text).other()?;

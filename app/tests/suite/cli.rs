@@ -2,6 +2,7 @@
 
 mod bounds;
 mod editors;
+mod own;
 #[cfg(target_os = "linux")]
 pub mod runtime;
 mod shown;

@@ -196,13 +196,14 @@ fn name_in(span: &str) -> Option<&str> {
     last.filter(|_| span.chars().all(plain))
 }
 
-/// Flags of a command, with those of all.
+/// Flags of a command and of the commands inside it, with those of all.
 fn flags(command: &clap::Command) -> BTreeSet<String> {
     let long = |arg: &clap::Arg| arg.get_long().map(|name| format!("--{name}"));
     let short = |arg: &clap::Arg| arg.get_short().map(|name| format!("-{name}"));
     let own = command.get_arguments();
     own.flat_map(|arg| [long(arg), short(arg)])
         .flatten()
+        .chain(command.get_subcommands().flat_map(flags))
         .collect()
 }
 

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 )]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
-    /// English, which stands in for a language that a lesson does not have.
+    /// English, which stands in for a language that a lesson does not have, if the lesson has English.
     #[default]
     En,
     /// German.

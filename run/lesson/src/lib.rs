@@ -35,7 +35,7 @@ pub use glass::{Glass, Glassware, Holding, Place};
 pub use language::{Language, LanguageError};
 pub use limits::Limits;
 pub use mixing::layered;
-pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
+pub use procedure::{Fault, Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Cap, Criterion, Evidence, LeftOut, Score, ScoreLine};
 pub use table::{SPREADSHEET_MARK, TableError, incidents_csv, spreadsheet_text};

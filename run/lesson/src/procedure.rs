@@ -12,9 +12,12 @@ mod keeping;
 mod mode;
 mod panel;
 mod progress;
+mod read;
 mod record;
 mod retold;
 mod sight;
+mod source;
+mod template;
 #[cfg(test)]
 mod tests;
 mod verdict;
@@ -25,7 +28,7 @@ pub use condition::{
     Answered, Condition, Cool, HandName, Holds, Keep, Kind, Liquid, MOST_ANSWERS, Measured,
     OfFlask, Poured, Rinsed, SashAtMost, SashIs, SpiltAtMost, Stirred, TemperatureIs, Wiped, Worn,
 };
-pub use error::LessonError;
+pub use error::{Fault, LessonError};
 pub use file::{Lesson, Rule, Step};
 pub use judge::Procedure;
 pub use mode::{Mode, ModeError};

@@ -236,6 +236,13 @@ fn table(language: Language) -> &'static str {
     }
 }
 
+/// The lines of a built-in lesson's texts in a language, as its table has them.
+pub(crate) fn lesson_lines(language: Language, name: &str) -> Option<&'static str> {
+    let (_, rest) = table(language).split_once(&format!("[lesson.{name}]"))?;
+    let lines = rest.split_once("\n[").map_or(rest, |(lines, _)| lines);
+    Some(lines.trim())
+}
+
 /// The holes of each sentence, by its path.
 fn holes(text: &str) -> Result<BTreeMap<String, BTreeSet<String>>, toml::de::Error> {
     let sentences = sentences(text)?;

@@ -150,11 +150,9 @@ fn subtitles(
         seconds,
     };
     let languages = lesson.languages();
-    // English stands in for a language that the lesson does not have.
-    let shown = *languages
-        .iter()
-        .find(|it| **it == shown)
-        .unwrap_or(&Language::En);
+    // The first stands in for a language that the lesson does not have.
+    let has = languages.contains(&shown);
+    let shown = languages.first().filter(|_| !has).copied().unwrap_or(shown);
     let of = |language| {
         let (texts, around) = (Texts::of(language).other()?, Around::of(language)?);
         let words = SubtitleWords {

@@ -4,7 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{Problem, within};
+use super::error::Problems;
 use crate::event::{Surface, What};
 use crate::skin::{CORROSIVE, IRRITANT};
 
@@ -20,6 +20,10 @@ const LEAST_ML: f64 = 0.5;
 const MOST_ML: f64 = 100_000.0;
 /// Range of temperatures that a condition may ask for, °C.
 const TEMPERATURES: [f64; 2] = [-50.0, 350.0];
+/// Shortest time that a condition may ask for, s.
+const SHORTEST_S: f64 = 0.1;
+/// Longest time that a condition may ask for, s.
+const LONGEST_S: f64 = 600.0;
 
 /// What completes a step.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -326,84 +330,102 @@ impl HandName {
 
 /// Checks the ends of a range, of which one may be missing.
 fn range(
-    field: &str,
-    unit: &str,
+    problems: &mut Problems,
+    (field, unit): (&str, &str),
     ends: [Option<f64>; 2],
     [least, most]: [f64; 2],
-) -> Result<(), Problem> {
+) {
     for (name, end) in ["at_least", "at_most"].into_iter().zip(ends) {
         if let Some(end) = end {
-            within(&format!("{field}.{name}_{unit}"), end, least, most)?;
+            problems.within(&format!("{field}.{name}_{unit}"), end, least, most);
         }
     }
-    let problem = match ends {
-        [None, None] => format!("has no end; give at_least_{unit}, at_most_{unit} or both"),
-        [Some(least), Some(most)] if least > most => {
+    match ends {
+        [None, None] => problems.add(
+            field,
+            format!("has no end; give at_least_{unit}, at_most_{unit} or both"),
+        ),
+        [Some(least), Some(most)] if least > most => problems.add(
+            field,
             format!(
                 "at_least_{unit} {least} is above at_most_{unit} {most}; take them the other way"
-            )
-        }
-        _ => return Ok(()),
-    };
-    Err(Problem::new(field, problem))
+            ),
+        ),
+        _ => {}
+    }
 }
 
 impl Condition {
     /// Checks that its numbers make sense; `field` is its path in messages.
-    pub(super) fn check(&self, field: &str) -> Result<(), Problem> {
-        self.check_at(field, 0)
+    pub(super) fn check(&self, problems: &mut Problems, field: &str) {
+        self.check_at(problems, field, 0);
     }
 
-    fn check_at(&self, field: &str, depth: usize) -> Result<(), Problem> {
+    fn check_at(&self, problems: &mut Problems, field: &str, depth: usize) {
         let named = |name: &str| format!("{field}.{name}");
-        let volume = |name: &str, ml| within(&named(name), ml, LEAST_ML, MOST_ML);
-        let time = |name: &str, s| within(&named(name), s, 0.1, 600.0);
         match self {
             Self::All(parts) | Self::Any(parts) => {
                 if parts.is_empty() || parts.len() > MOST_PARTS {
                     let problem = format!("has {} parts; give 1 to {MOST_PARTS}", parts.len());
-                    return Err(Problem::new(field, problem));
+                    return problems.add(field, problem);
                 }
                 if depth + 1 >= DEEPEST {
                     let problem = format!("more than {DEEPEST} deep; make two steps of it");
-                    return Err(Problem::new(field, problem));
+                    return problems.add(field, problem);
                 }
                 for (index, part) in parts.iter().enumerate() {
                     let field = part.field(&format!("{field}[{index}]"));
-                    part.check_at(&field, depth + 1)?;
+                    part.check_at(problems, &field, depth + 1);
                 }
-                Ok(())
             }
-            Self::Lifted(_) | Self::PutDown(_) | Self::Goggles(_) | Self::Gloves(_) => Ok(()),
+            Self::Lifted(_) | Self::PutDown(_) | Self::Goggles(_) | Self::Gloves(_) => {}
             Self::Poured(it) => {
-                volume("at_least_ml", it.at_least_ml)?;
                 let ends = [Some(it.at_least_ml), it.at_most_ml];
-                range(field, "ml", ends, [LEAST_ML, MOST_ML])?;
-                let rate = |it| within(&named("at_most_ml_s"), it, 0.1, 1000.0);
-                it.at_most_ml_s.map_or(Ok(()), rate)
+                range(problems, (field, "ml"), ends, [LEAST_ML, MOST_ML]);
+                if let Some(rate) = it.at_most_ml_s {
+                    problems.within(&named("at_most_ml_s"), rate, 0.1, 1000.0);
+                }
             }
             Self::Holds(it) => {
-                volume("at_least_ml", it.at_least_ml)?;
+                problems.within(&named("at_least_ml"), it.at_least_ml, LEAST_ML, MOST_ML);
                 let (from, to) = (it.acid_from_percent, it.acid_to_percent);
-                within(&named("acid_from_percent"), from, 0.0, 100.0)?;
-                within(&named("acid_to_percent"), to, from, 100.0)?;
-                time("for_s", it.for_s)
+                problems.within(&named("acid_from_percent"), from, 0.0, 100.0);
+                let least = if (0.0..=100.0).contains(&from) {
+                    from
+                } else {
+                    0.0
+                };
+                problems.within(&named("acid_to_percent"), to, least, 100.0);
+                problems.within(&named("for_s"), it.for_s, SHORTEST_S, LONGEST_S);
             }
-            Self::Temperature(it) => range(field, "c", [it.at_least_c, it.at_most_c], TEMPERATURES),
-            Self::Sash(it) => range(field, "m", [it.at_least_m, it.at_most_m], [0.0, 2.0]),
-            Self::Stirred(it) => time("at_least_s", it.at_least_s),
-            Self::Measured(it) => time("for_s", it.for_s),
-            Self::Wiped(it) => within(&named("at_most_ml"), it.at_most_ml, 0.0, MOST_ML),
-            Self::Rinsed(it) => volume("at_least_ml", it.at_least_ml),
+            Self::Temperature(it) => {
+                let ends = [it.at_least_c, it.at_most_c];
+                range(problems, (field, "c"), ends, TEMPERATURES);
+            }
+            Self::Sash(it) => {
+                let ends = [it.at_least_m, it.at_most_m];
+                range(problems, (field, "m"), ends, [0.0, 2.0]);
+            }
+            Self::Stirred(it) => {
+                problems.within(&named("at_least_s"), it.at_least_s, SHORTEST_S, LONGEST_S);
+            }
+            Self::Measured(it) => {
+                problems.within(&named("for_s"), it.for_s, SHORTEST_S, LONGEST_S);
+            }
+            Self::Wiped(it) => problems.within(&named("at_most_ml"), it.at_most_ml, 0.0, MOST_ML),
+            Self::Rinsed(it) => {
+                problems.within(&named("at_least_ml"), it.at_least_ml, LEAST_ML, MOST_ML);
+            }
             Self::Answered(_) if depth > 0 => {
                 let problem = "a question is a part of `all` or `any`; make a step of it";
-                Err(Problem::new(field, problem))
+                problems.add(field, problem);
             }
             Self::Answered(it) => {
                 let (answers, most) = (f64::from(it.answers), f64::from(MOST_ANSWERS));
-                within(&named("answers"), answers, 1.0, most)?;
-                let right = |right| within(&named("right"), f64::from(right), 1.0, answers);
-                it.right.map_or(Ok(()), right)
+                problems.within(&named("answers"), answers, 1.0, most);
+                if let Some(right) = it.right {
+                    problems.within(&named("right"), f64::from(right), 1.0, answers.max(1.0));
+                }
             }
         }
     }
@@ -441,18 +463,20 @@ impl Condition {
 
 impl Keep {
     /// Checks that its numbers make sense; `field` is its path in messages.
-    pub(super) fn check(&self, field: &str) -> Result<(), Problem> {
+    pub(super) fn check(&self, problems: &mut Problems, field: &str) {
         match self {
-            Self::Never(_) | Self::Goggles | Self::Gloves => Ok(()),
+            Self::Never(_) | Self::Goggles | Self::Gloves => {}
             Self::Spilt(it) => {
                 let field = format!("{field}.spilt.at_most_ml");
-                within(&field, it.at_most_ml, 0.0, MOST_ML)
+                problems.within(&field, it.at_most_ml, 0.0, MOST_ML);
             }
             Self::Cool(it) => {
                 let [least, most] = TEMPERATURES;
-                within(&format!("{field}.cool.below_c"), it.below_c, least, most)
+                problems.within(&format!("{field}.cool.below_c"), it.below_c, least, most);
             }
-            Self::Sash(it) => within(&format!("{field}.sash.at_most_m"), it.at_most_m, 0.0, 2.0),
+            Self::Sash(it) => {
+                problems.within(&format!("{field}.sash.at_most_m"), it.at_most_m, 0.0, 2.0);
+            }
         }
     }
 }

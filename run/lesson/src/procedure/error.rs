@@ -1,9 +1,10 @@
 //! What can be wrong with a lesson's file.
 
+use std::fmt;
+
 use crate::texts::TextsError;
 
-/// Why a lesson could not be loaded, or does not fit its scene. Each message names the file, the field in it and what would be
-/// right.
+/// Why a lesson could not be loaded, or does not fit its scene. Each message names the file, its line and field, and what would be right.
 #[derive(Debug, thiserror::Error)]
 pub enum LessonError {
     /// No built-in lesson has this name.
@@ -14,60 +15,83 @@ pub enum LessonError {
         /// The built-in names.
         known: String,
     },
-    /// Not TOML, or a key that is missing, unknown or of the wrong type. The message has the line and the keys that are known there.
-    #[error("{file}: {message}")]
-    Syntax {
-        /// The file.
-        file: String,
-        /// The parser's message.
-        message: String,
+    /// A new lesson cannot have that name.
+    #[error(
+        "lesson {name:?}: no name for a new one; take 1 to 40 of a to z, 0 to 9 and -, and none of the built-in {known}"
+    )]
+    NewName {
+        /// The name that was asked for.
+        name: String,
+        /// The built-in names.
+        known: String,
     },
-    /// A value that makes no sense, or does not fit the scene.
-    #[error("{file}: {field}: {problem}")]
-    Invalid {
+    /// Not TOML, a key that is missing or unknown, or a value that makes no sense or does not fit the scene: a line for each.
+    #[error("{}", lines(.file, .faults))]
+    Faulty {
         /// The file.
         file: String,
-        /// Path of the field, such as `step[1].points`.
-        field: String,
-        /// What is wrong with it and what would be right.
-        problem: String,
+        /// Its faults, by their lines.
+        faults: Vec<Fault>,
     },
     /// A string table that the program carries is damaged, which a test rules out.
     #[error(transparent)]
     Texts(#[from] TextsError),
 }
 
-/// A problem in a field, before the file's name is added to it.
+/// A fault of a lesson's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Its line, counted from 1.
+    pub line: usize,
+    /// Path of the field, such as `step[1].points`; empty where the text is no TOML.
+    pub field: String,
+    /// What is wrong with it and what would be right.
+    pub problem: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: ", self.line)?;
+        if !self.field.is_empty() {
+            write!(f, "{}: ", self.field)?;
+        }
+        // A key of the file may have a line break; a fault is one line.
+        f.write_str(&self.problem.replace(['\n', '\r'], " "))
+    }
+}
+
+/// A line for each fault, each with the file's name: editors open such lines.
+fn lines(file: &str, faults: &[Fault]) -> String {
+    let lines = faults.iter().map(|fault| format!("{file}: {fault}"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A problem in a field, before its line is looked for.
 #[derive(Debug)]
 pub(super) struct Problem {
-    field: String,
-    problem: String,
+    pub field: String,
+    pub problem: String,
 }
 
-impl Problem {
-    pub fn new(field: impl Into<String>, problem: impl ToString) -> Self {
-        Self {
+/// The problems of a lesson.
+#[derive(Debug, Default)]
+pub(super) struct Problems(pub Vec<Problem>);
+
+impl Problems {
+    /// Adds a problem of a field.
+    pub fn add(&mut self, field: impl Into<String>, problem: impl ToString) {
+        self.0.push(Problem {
             field: field.into(),
             problem: problem.to_string(),
-        }
+        });
     }
 
-    pub fn in_file(self, file: &str) -> LessonError {
-        LessonError::Invalid {
-            file: file.to_owned(),
-            field: self.field,
-            problem: self.problem,
+    /// Adds one where a value is not a number from `least` to `most`.
+    pub fn within(&mut self, field: &str, value: f64, least: f64, most: f64) {
+        if !value.is_finite() || !(least..=most).contains(&value) {
+            self.add(field, format!("{value} is not from {least} to {most}"));
         }
     }
-}
-
-/// Refuses a value that is not a number from `least` to `most`; `field` is its path in the message.
-pub(super) fn within(field: &str, value: f64, least: f64, most: f64) -> Result<(), Problem> {
-    if value.is_finite() && (least..=most).contains(&value) {
-        return Ok(());
-    }
-    let problem = format!("{value} is not from {least} to {most}");
-    Err(Problem::new(field, problem))
 }
 
 /// Formats names as a list in a message.

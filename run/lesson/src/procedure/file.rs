@@ -2,13 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde::Deserialize;
 use xxhash_rust::xxh3::xxh3_128;
 
 use super::condition::{Condition, Keep};
-use super::error::{LessonError, Problem, listed, within};
+use super::error::{LessonError, Problems, listed};
+use super::fits::Fit;
 use super::mode::Mode;
+use super::read::{LessonFile, read};
 use super::sight::SceneFacts;
+use super::source::Source;
 use super::words::LessonTexts;
 use crate::caps::{Caps, Danger, WHOLE};
 use crate::language::Language;
@@ -16,9 +18,9 @@ use crate::rubric::Rubric;
 use crate::texts::Texts;
 
 /// Version of the file format that is read here.
-const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 1;
 /// Most steps of a lesson, and most rules.
-const MOST: usize = 50;
+pub(super) const MOST: usize = 50;
 /// Most points of a step or rule.
 const MOST_POINTS: u32 = 1000;
 /// Longest id or name, characters.
@@ -48,39 +50,18 @@ const BUILTIN: [(&str, &str); 6] = [
     ("emergency", include_str!("../../lessons/emergency.toml")),
 ];
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LessonFile {
-    version: u32,
-    name: String,
-    scene: String,
-    modes: Vec<Mode>,
-    #[serde(default)]
-    caps: Caps,
-    #[serde(default)]
-    step: Vec<Step>,
-    #[serde(default)]
-    rule: Vec<Rule>,
-    #[serde(default)]
-    texts: BTreeMap<Language, LessonTexts>,
-}
-
 /// A step of a lesson.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// Its id, which is the key of its texts.
     pub id: String,
     /// The condition that completes it.
     pub condition: Condition,
     /// Requirements that must hold from its beginning until it is done.
-    #[serde(default)]
     pub keep: Vec<Keep>,
     /// Ids of earlier steps that must be done or missed before it begins, where several steps are open at a time.
-    #[serde(default)]
     pub after: Vec<String>,
     /// Dangers that the student is asked for here: the lesson does not cap the score for them.
-    #[serde(default)]
     pub asks: Vec<Danger>,
     /// Points for it.
     pub points: u32,
@@ -91,8 +72,7 @@ pub struct Step {
 }
 
 /// A requirement that must hold from the beginning of a lesson to its end.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// Its id, which is the key of its text.
     pub id: String,
@@ -117,8 +97,10 @@ pub struct Lesson {
     pub rules: Vec<Rule>,
     caps: Caps,
     file: String,
+    text: String,
     hash: String,
-    english: LessonTexts,
+    /// The texts that stand in for a language that is not there: English, or else the first.
+    first: (Language, LessonTexts),
     others: BTreeMap<Language, LessonTexts>,
 }
 
@@ -152,71 +134,84 @@ impl Lesson {
     /// gets that one's texts.
     ///
     /// # Errors
-    /// [`LessonError`] where the text is not TOML, a key is missing or unknown, a value is out of its range, or a language is not
-    /// complete.
+    /// [`LessonError::Faulty`] with each fault: where the text is not TOML, a key is missing or unknown, a value is out of its range, or a
+    /// language is not complete.
     pub fn parse(text: &str, file: &str) -> Result<Self, LessonError> {
-        let raw: LessonFile = toml::from_str(text).map_err(|error| LessonError::Syntax {
-            file: file.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        let in_file = |problem: Problem| problem.in_file(file);
-        check(&raw).map_err(in_file)?;
-        let mut others = raw.texts;
-        if others.is_empty() && Self::builtin_text(&raw.name).is_some() {
+        Self::parse_for(text, file, |_| Ok(None))
+    }
+
+    /// As [`Lesson::parse`], and checks that the lesson's scene has everything that the lesson asks for. `facts` gives the properties of
+    /// the scene of a name, or why there are none; `None`: the scene is not checked.
+    ///
+    /// # Errors
+    /// [`LessonError::Faulty`] with each fault of the file and of what the scene lacks.
+    pub fn parse_for(
+        text: &str,
+        file: &str,
+        facts: impl FnOnce(&str) -> Result<Option<SceneFacts>, String>,
+    ) -> Result<Self, LessonError> {
+        let mut source = Source::new(text, file)?;
+        let mut raw = read(&mut source);
+        let own = source.has("texts");
+        if !own && Self::builtin_text(&raw.name).is_some() {
             for language in Language::ALL {
                 if let Some(texts) = Texts::of(language)?.lesson.remove(&raw.name) {
-                    others.insert(language, texts);
+                    raw.texts.insert(language, texts);
                 }
             }
         }
-        let steps = raw.step.iter().map(|step| {
-            let question = step.condition.question();
-            let answers = question.map_or(0, |it| usize::from(it.answers));
-            (step.id.as_str(), answers)
-        });
-        let steps: Vec<(&str, usize)> = steps.collect();
-        let rules: Vec<&str> = raw.rule.iter().map(|rule| rule.id.as_str()).collect();
-        for (language, texts) in &others {
-            let checked = texts.check(*language, (&steps, &rules));
-            checked.map_err(in_file)?;
+        let mut problems = Problems::default();
+        check(&mut problems, &raw);
+        if !source.is_unread("scene") && !raw.scene.trim().is_empty() {
+            match facts(&raw.scene) {
+                Ok(Some(facts)) => fits(&mut problems, (&raw.steps, &raw.rules), &facts),
+                Ok(None) => {}
+                Err(problem) => problems.add("scene", problem),
+            }
         }
-        let Some(english) = others.remove(&Language::En) else {
-            let problem = "missing; a lesson has English texts, which stand in for other languages";
-            return Err(in_file(Problem::new("texts.en", problem)));
+        // Without a name it is not known whether built-in texts were meant; a language that is not known is told already.
+        let told = if own {
+            !source.names("texts").is_empty()
+        } else {
+            source.is_unread("name")
         };
-        Ok(Self {
-            name: raw.name,
-            scene: raw.scene,
-            modes: raw.modes,
-            steps: raw.step,
-            rules: raw.rule,
-            caps: raw.caps,
-            file: file.to_owned(),
-            hash: format!("{:032x}", xxh3_128(text.as_bytes())),
-            english,
-            others,
-        })
+        if raw.texts.is_empty() && !told {
+            let problem = "missing; a lesson has texts in one language or more, such as [texts.de]";
+            problems.add("texts", problem);
+        }
+        source.add(problems);
+        match raw.texts.pop_first() {
+            Some(first) if source.is_good() => Ok(Self {
+                name: raw.name,
+                scene: raw.scene,
+                modes: raw.modes,
+                steps: raw.steps,
+                rules: raw.rules,
+                caps: raw.caps,
+                file: file.to_owned(),
+                text: text.to_owned(),
+                hash: format!("{:032x}", xxh3_128(text.as_bytes())),
+                first,
+                others: raw.texts,
+            }),
+            _ => Err(source.into_error()),
+        }
     }
 
     /// Checks that the scene with these `facts` has everything that the lesson asks for.
     ///
     /// # Errors
-    /// [`LessonError::Invalid`] for the first thing that the scene lacks.
+    /// [`LessonError::Faulty`] with each thing that the scene lacks.
     pub fn check(&self, facts: &SceneFacts) -> Result<(), LessonError> {
-        let fits = || {
-            for (index, step) in self.steps.iter().enumerate() {
-                let field = step.condition.field(&format!("step[{index}].condition"));
-                step.condition.fits(&field, facts)?;
-                for (nth, keep) in step.keep.iter().enumerate() {
-                    keep.fits(&format!("step[{index}].keep[{nth}]"), facts)?;
-                }
-            }
-            for (index, rule) in self.rules.iter().enumerate() {
-                rule.keep.fits(&format!("rule[{index}].keep"), facts)?;
-            }
+        let mut problems = Problems::default();
+        fits(&mut problems, (&self.steps, &self.rules), facts);
+        let mut source = Source::new(&self.text, &self.file)?;
+        source.add(problems);
+        if source.is_good() {
             Ok(())
-        };
-        fits().map_err(|problem: Problem| problem.in_file(&self.file))
+        } else {
+            Err(source.into_error())
+        }
     }
 
     /// Hash of its file's text, XXH3 of 128 bits in hexadecimal: lessons of one name and hash are the same.
@@ -233,15 +228,15 @@ impl Lesson {
         }
     }
 
-    /// Its texts in that language, or in English if it has none.
+    /// Its texts in that language; if it has none, in English; if it has no English ones, in its first language.
     pub fn texts(&self, language: Language) -> &LessonTexts {
-        self.others.get(&language).unwrap_or(&self.english)
+        self.others.get(&language).unwrap_or(&self.first.1)
     }
 
-    /// The languages of its texts.
+    /// The languages of its texts; the first stands in for those that it does not have.
     pub fn languages(&self) -> Vec<Language> {
         let others = self.others.keys().copied();
-        std::iter::once(Language::En).chain(others).collect()
+        std::iter::once(self.first.0).chain(others).collect()
     }
 
     /// The mode that is used where none is named.
@@ -250,110 +245,123 @@ impl Lesson {
     }
 }
 
-/// Checks the values of the file, except its texts.
-fn check(raw: &LessonFile) -> Result<(), Problem> {
-    if raw.version != VERSION {
-        let problem = format!(
-            "{} is not known here; this program reads {VERSION}",
-            raw.version
-        );
-        return Err(Problem::new("version", problem));
+/// Checks that a scene has what these steps and rules ask for.
+fn fits(problems: &mut Problems, (steps, rules): (&[Step], &[Rule]), facts: &SceneFacts) {
+    let mut fit = Fit { facts, problems };
+    for (index, step) in steps.iter().enumerate() {
+        let field = step.condition.field(&format!("step[{index}].condition"));
+        step.condition.fits(&field, &mut fit);
+        for (nth, keep) in step.keep.iter().enumerate() {
+            keep.fits(&format!("step[{index}].keep[{nth}]"), &mut fit);
+        }
     }
-    check_id("name", &raw.name)?;
+    for (index, rule) in rules.iter().enumerate() {
+        rule.keep.fits(&format!("rule[{index}].keep"), &mut fit);
+    }
+}
+
+/// Checks the values of the file.
+fn check(problems: &mut Problems, raw: &LessonFile) {
+    if raw.version != VERSION {
+        let version = raw.version;
+        let problem = format!("{version} is not known here; this program reads {VERSION}");
+        problems.add("version", problem);
+    }
+    check_id(problems, "name", &raw.name);
     if raw.scene.trim().is_empty() {
-        return Err(Problem::new("scene", "empty; name a scene"));
+        problems.add("scene", "empty; name a scene");
     }
     let modes: BTreeSet<Mode> = raw.modes.iter().copied().collect();
     if modes.is_empty() || modes.len() < raw.modes.len() {
         let problem = "has none, or one twice; take of \"guided\", \"free\", \"examination\" each that it allows, its usual one first";
-        return Err(Problem::new("modes", problem));
+        problems.add("modes", problem);
     }
-    let asks = raw.step.iter().any(|it| it.condition.question().is_some());
+    let asks = raw.steps.iter().any(|it| it.condition.question().is_some());
     if asks && modes.contains(&Mode::Examination) {
         let problem = "has \"examination\", in which no step is shown; take it out, or take the lesson's questions out";
-        return Err(Problem::new("modes", problem));
+        problems.add("modes", problem);
     }
     for (name, most) in raw.caps.named() {
         let field = format!("caps.{name}");
-        within(&field, f64::from(most), 0.0, f64::from(WHOLE))?;
-    }
-    for (field, count, least) in [("step", raw.step.len(), 1), ("rule", raw.rule.len(), 0)] {
-        if !(least..=MOST).contains(&count) {
-            let problem = format!("there are {count}; a lesson has {least} to {MOST}");
-            return Err(Problem::new(field, problem));
-        }
+        problems.within(&field, f64::from(most), 0.0, f64::from(WHOLE));
     }
     let mut ids = Vec::new();
-    for (index, step) in raw.step.iter().enumerate() {
-        let field = |name: &str| format!("step[{index}].{name}");
-        check_step(&field, step, &ids)?;
+    for (index, step) in raw.steps.iter().enumerate() {
+        check_step(problems, &format!("step[{index}]"), step, &ids);
         ids.push(step.id.as_str());
     }
-    if raw.step.iter().all(|step| step.points == 0) {
-        let problem = "no step has points; give one some";
-        return Err(Problem::new("step[0].points", problem));
+    if raw.steps.iter().all(|step| step.points == 0) {
+        problems.add("step[0].points", "no step has points; give one some");
     }
-    for (index, rule) in raw.rule.iter().enumerate() {
+    for (index, rule) in raw.rules.iter().enumerate() {
         let field = |name: &str| format!("rule[{index}].{name}");
-        check_new_id(&field("id"), &rule.id, &ids)?;
+        check_new_id(problems, &field("id"), &rule.id, &ids);
         ids.push(rule.id.as_str());
-        within(
-            &field("points"),
-            f64::from(rule.points),
-            0.0,
-            f64::from(MOST_POINTS),
-        )?;
-        rule.keep.check(&field("keep"))?;
+        check_points(problems, &field("points"), rule.points);
+        rule.keep.check(problems, &field("keep"));
     }
-    Ok(())
+    let steps = raw.steps.iter().map(|step| {
+        let question = step.condition.question();
+        let answers = question.map_or(0, |it| usize::from(it.answers));
+        (step.id.as_str(), answers)
+    });
+    let steps: Vec<(&str, usize)> = steps.collect();
+    let rules: Vec<&str> = raw.rules.iter().map(|rule| rule.id.as_str()).collect();
+    for (language, texts) in &raw.texts {
+        texts.check(problems, *language, (&steps, &rules));
+    }
 }
 
-fn check_step(field: &dyn Fn(&str) -> String, step: &Step, before: &[&str]) -> Result<(), Problem> {
-    check_new_id(&field("id"), &step.id, before)?;
-    within(
-        &field("points"),
-        f64::from(step.points),
-        0.0,
-        f64::from(MOST_POINTS),
-    )?;
+fn check_step(problems: &mut Problems, field: &str, step: &Step, before: &[&str]) {
+    let named = |name: &str| format!("{field}.{name}");
+    check_new_id(problems, &named("id"), &step.id, before);
+    check_points(problems, &named("points"), step.points);
     let times = [
         ("hint_after_s", step.hint_after_s),
         ("time_limit_s", step.time_limit_s),
     ];
     for (name, time) in times {
         if let Some(time) = time {
-            within(&field(name), time, 1.0, LONGEST_TIME)?;
+            problems.within(&named(name), time, 1.0, LONGEST_TIME);
         }
     }
-    for id in &step.after {
-        if !before.contains(&id.as_str()) {
-            let known = listed(before.iter().copied());
-            let problem = format!("no step before this one is {id:?}; those are {known}");
-            return Err(Problem::new(field("after"), problem));
-        }
+    let unknown = step
+        .after
+        .iter()
+        .filter(|id| !before.contains(&id.as_str()));
+    for id in unknown.take(MOST) {
+        let known = listed(before.iter().copied());
+        let problem = format!("no step before this one is {id:?}; those are {known}");
+        problems.add(named("after"), problem);
     }
-    step.condition
-        .check(&step.condition.field(&field("condition")))?;
+    let condition = step.condition.field(&named("condition"));
+    step.condition.check(problems, &condition);
     for (nth, keep) in step.keep.iter().enumerate() {
-        keep.check(&format!("{}[{nth}]", field("keep")))?;
+        keep.check(problems, &format!("{}[{nth}]", named("keep")));
     }
-    Ok(())
 }
 
-fn check_new_id(field: &str, id: &str, before: &[&str]) -> Result<(), Problem> {
-    check_id(field, id)?;
+fn check_points(problems: &mut Problems, field: &str, points: u32) {
+    problems.within(field, f64::from(points), 0.0, f64::from(MOST_POINTS));
+}
+
+fn check_new_id(problems: &mut Problems, field: &str, id: &str, before: &[&str]) {
+    check_id(problems, field, id);
     if before.contains(&id) {
         let problem = format!("{id:?} is there before; ids of steps and rules differ");
-        return Err(Problem::new(field, problem));
+        problems.add(field, problem);
     }
-    Ok(())
 }
 
-fn check_id(field: &str, id: &str) -> Result<(), Problem> {
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    if !id.is_empty() && id.len() <= LONGEST_ID && id.chars().all(letter) {
-        return Ok(());
+fn check_id(problems: &mut Problems, field: &str, id: &str) {
+    if !is_id(id) {
+        let problem = format!("{id:?} is no name; take 1 to {LONGEST_ID} of a to z, 0 to 9 and -");
+        problems.add(field, problem);
     }
-    let problem = format!("{id:?} is no name; take 1 to {LONGEST_ID} of a to z, 0 to 9 and -");
-    Err(Problem::new(field, problem))
+}
+
+/// Whether a lesson, step or rule may have that name.
+pub(super) fn is_id(id: &str) -> bool {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    !id.is_empty() && id.len() <= LONGEST_ID && id.chars().all(letter)
 }

@@ -4,6 +4,7 @@
 mod any;
 mod builtin;
 mod conditions;
+mod faults;
 mod fits;
 mod keeping;
 mod modes;

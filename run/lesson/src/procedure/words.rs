@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
-use super::error::{Problem, listed};
+use super::error::{Problems, listed};
+use super::file::MOST;
 use crate::language::Language;
 
 /// Longest title, a line of the panel, characters; Chinese ones are twice as wide, so they have half of each limit.
@@ -49,67 +50,65 @@ impl LessonTexts {
     /// Checks that each of these steps, with so many answers, and rules has texts, that no other has, and that each text fits the panel.
     pub(super) fn check(
         &self,
+        problems: &mut Problems,
         language: Language,
         (steps, rules): (&[(&str, usize)], &[&str]),
-    ) -> Result<(), Problem> {
+    ) {
         let field = format!("texts.{language}");
         let ids: Vec<&str> = steps.iter().map(|(id, _)| *id).collect();
-        same_keys(&format!("{field}.step"), self.step.keys(), &ids)?;
-        same_keys(&format!("{field}.rule"), self.rule.keys(), rules)?;
-        let fits = |key: &str, text: &str, most: usize| {
+        same_keys(problems, &format!("{field}.step"), self.step.keys(), &ids);
+        same_keys(problems, &format!("{field}.rule"), self.rule.keys(), rules);
+        let mut fits = |key: &str, text: &str, most: usize| {
             let most = match language {
                 Language::Zh => most / 2,
                 _ => most,
             };
-            line(&format!("{field}.{key}"), text, most)
+            line(problems, &format!("{field}.{key}"), text, most);
         };
-        fits("title", &self.title, TITLE)?;
-        fits("summary", &self.summary, SUMMARY)?;
+        fits("title", &self.title, TITLE);
+        fits("summary", &self.summary, SUMMARY);
         for (id, step) in &self.step {
-            fits(&format!("step.{id}.text"), &step.text, STEP)?;
-            fits(&format!("step.{id}.hint"), &step.hint, STEP)?;
+            fits(&format!("step.{id}.text"), &step.text, STEP);
+            fits(&format!("step.{id}.hint"), &step.hint, STEP);
             for (nth, answer) in step.answers.iter().enumerate() {
-                fits(&format!("step.{id}.answers[{nth}]"), answer, ANSWER)?;
-            }
-        }
-        for (id, needed) in steps {
-            let found = self.step.get(*id).map_or(0, |step| step.answers.len());
-            if found != *needed {
-                let problem = format!(
-                    "has {found}, and the step asks for {needed}; give each answer its text"
-                );
-                let field = format!("{field}.step.{id}.answers");
-                return Err(Problem::new(field, problem));
+                fits(&format!("step.{id}.answers[{nth}]"), answer, ANSWER);
             }
         }
         for (id, rule) in &self.rule {
-            fits(&format!("rule.{id}"), rule, STEP)?;
+            fits(&format!("rule.{id}"), rule, STEP);
         }
-        Ok(())
+        for (id, needed) in steps {
+            // Of a step without texts that is said already.
+            let found = self.step.get(*id).map(|step| step.answers.len());
+            if let Some(found) = found.filter(|found| found != needed) {
+                let problem = format!(
+                    "has {found}, and the step asks for {needed}; give each answer its text"
+                );
+                problems.add(format!("{field}.step.{id}.answers"), problem);
+            }
+        }
     }
 }
 
 fn same_keys<'a>(
+    problems: &mut Problems,
     field: &str,
     found: impl Iterator<Item = &'a String>,
     needed: &[&str],
-) -> Result<(), Problem> {
+) {
     let found: BTreeSet<&str> = found.map(String::as_str).collect();
-    if let Some(missing) = needed.iter().find(|id| !found.contains(*id)) {
+    for missing in needed.iter().filter(|id| !found.contains(*id)) {
         let problem = "missing; give its texts, or take the language out";
-        return Err(Problem::new(format!("{field}.{missing}"), problem));
+        problems.add(format!("{field}.{missing}"), problem);
     }
-    if let Some(other) = found.iter().find(|id| !needed.contains(id)) {
-        let problem = format!(
-            "the lesson has none of that id; it has {}",
-            listed(needed.iter().copied())
-        );
-        return Err(Problem::new(format!("{field}.{other}"), problem));
+    for other in found.iter().filter(|id| !needed.contains(id)).take(MOST) {
+        let known = listed(needed.iter().copied());
+        let problem = format!("the lesson has none of that id; it has {known}");
+        problems.add(format!("{field}.{other}"), problem);
     }
-    Ok(())
 }
 
-fn line(field: &str, text: &str, most: usize) -> Result<(), Problem> {
+fn line(problems: &mut Problems, field: &str, text: &str, most: usize) {
     let length = text.chars().count();
     let problem = if text.trim().is_empty() {
         "empty; say something".to_owned()
@@ -120,7 +119,7 @@ fn line(field: &str, text: &str, most: usize) -> Result<(), Problem> {
     } else if text.contains(['{', '}']) {
         "has a brace; a lesson's texts have no holes, so write what is meant".to_owned()
     } else {
-        return Ok(());
+        return;
     };
-    Err(Problem::new(field, problem))
+    problems.add(field, problem);
 }

@@ -1,5 +1,7 @@
 //! The built-in lessons, against the built-in scenes.
 
+use std::collections::BTreeSet;
+
 use vitriol_sim::scene::Scene;
 
 use super::*;
@@ -55,6 +57,50 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
         error.contains("dilute, wrong-order, wrong-order-layered, wrong-order-hot, examination"),
         "{error}"
     );
+}
+
+/// Each lesson in each language is a file to begin with: it fits its scene as it is, has that language alone, and explains each of its keys.
+#[test]
+fn a_new_lesson_is_good_and_explained() {
+    fn keys(value: &toml::Value, found: &mut BTreeSet<String>) {
+        match value {
+            toml::Value::Table(table) => {
+                for (key, value) in table {
+                    found.insert(key.clone());
+                    keys(value, found);
+                }
+            }
+            toml::Value::Array(values) => values.iter().for_each(|it| keys(it, found)),
+            _ => {}
+        }
+    }
+    for from in Lesson::builtin_names() {
+        for language in Language::ALL {
+            let text = Lesson::template("own-1", from, language).unwrap();
+            let facts = |scene: &str| Ok(Some(facts(scene)));
+            let own = Lesson::parse_for(&text, "own-1.toml", facts).unwrap();
+            let builtin = Lesson::builtin(from).unwrap();
+            assert_eq!(
+                (own.name.as_str(), own.languages()),
+                ("own-1", vec![language])
+            );
+            assert_eq!((&own.steps, &own.rules), (&builtin.steps, &builtin.rules));
+            assert_eq!(own.texts(language), builtin.texts(language));
+            let mut table: toml::Table = toml::from_str(&text).unwrap();
+            // Those of texts are explained above them.
+            table.remove("texts").unwrap();
+            let mut found = BTreeSet::new();
+            keys(&toml::Value::Table(table), &mut found);
+            for key in found {
+                let explained = format!("\n# {key}: ");
+                assert_eq!(text.matches(&explained).count(), 1, "{from}: {key}");
+            }
+        }
+    }
+    for wrong in ["", "My lesson", "../own", "dilute"] {
+        let error = Lesson::template(wrong, "dilute", Language::De).unwrap_err();
+        assert!(error.to_string().contains("a to z"), "{error}");
+    }
 }
 
 /// By the scenes' files: 20 and 160 mL, and 13,000 particles of 2.5 mm at real size.

@@ -305,9 +305,8 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "[texts.zh]",
             "[texts.fr]",
-            &["unknown variant `fr`", "`en`", "`zh`"],
+            &["unknown field `fr`", "`en`", "`zh`"],
         ),
-        ("[texts.en]", "[texts.de]", &["texts.en: missing"]),
     ];
     for (from, to, needed) in cases {
         assert!(GOOD.contains(from), "{from} is not in the good lesson");

@@ -1,0 +1,51 @@
+//! `vitriol lesson new`: the file of a lesson of one's own.
+
+use std::path::Path;
+
+use serde::Serialize;
+use vitriol_lesson::Lesson;
+use vitriol_run::output::{new_file, write_new};
+use vitriol_run::{Blame, Failure, Format, emit};
+use vitriol_xr::files;
+
+use crate::cli::NewLessonArgs;
+
+/// What is printed of a new lesson.
+#[derive(Debug, Serialize)]
+struct Written {
+    file: String,
+    name: String,
+    from: String,
+    language: &'static str,
+}
+
+/// Writes the file of a new lesson.
+///
+/// # Errors
+/// [`Failure::Input`] where there is no such lesson to begin with, none may have that name, or the file exists; [`Failure::Other`] where it
+/// cannot be written.
+pub fn write(args: &NewLessonArgs, format: Format) -> Result<(), Failure> {
+    let (name, from) = (&args.name, &args.from);
+    let builtin = Lesson::builtin_names();
+    if !builtin.contains(&from.as_str()) {
+        let known = files::suggested(from, &builtin);
+        return Err(format!("--from {from:?}: no built-in lesson; {known}")).input();
+    }
+    let text = Lesson::template(name, from, args.language).input()?;
+    let path = new_file(Path::new(""), &format!("{name}.toml"))?;
+    write_new(&path, text.as_bytes())?;
+    let written = Written {
+        file: path.display().to_string(),
+        name: name.clone(),
+        from: from.clone(),
+        language: args.language.code(),
+    };
+    emit(format, &written, |it| {
+        format!(
+            "{file}: as {from}, with texts in {language}. Change it with an editor; `vitriol lesson {file}` checks it.",
+            file = it.file,
+            from = it.from,
+            language = it.language
+        )
+    })
+}

@@ -1,0 +1,153 @@
+//! A lesson of one's own: its new file, its faults, and the examples of the pages that say how lessons and tracks are written.
+
+use std::fs;
+use std::path::Path;
+
+use super::{object, refuses, text, vitriol};
+
+/// The indented block of a page that begins with that line.
+fn example(page: &str, first: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../docs")
+        .join(page);
+    let page = fs::read_to_string(path).unwrap();
+    let lines = page.lines().skip_while(|line| line.trim() != first);
+    let block = lines.take_while(|line| line.is_empty() || line.starts_with("    "));
+    let block = block.map(|line| line.strip_prefix("    ").unwrap_or(line));
+    block.map(|line| format!("{line}\n")).collect()
+}
+
+#[test]
+fn a_new_lesson_checks_and_overwrites_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let lessons = object(here, &["lesson"])["lessons"].clone();
+    let lessons = lessons.as_array().unwrap();
+    for (nth, lesson) in lessons.iter().enumerate() {
+        let from = lesson["name"].as_str().unwrap();
+        for language in ["en", "de", "es", "zh"] {
+            let name = format!("own-{nth}-{language}");
+            let file = format!("{name}.toml");
+            let new = [
+                "lesson",
+                "new",
+                &name,
+                "--from",
+                from,
+                "--language",
+                language,
+            ];
+            assert_eq!(object(here, &new)["file"], *file);
+            let shown = object(here, &["lesson", &file]);
+            assert_eq!(
+                (&shown["name"], &shown["points"]),
+                (&name.into(), &100.into())
+            );
+            assert_eq!(shown["languages"], serde_json::json!([language]));
+            let builtin = object(here, &["lesson", from, "--language", language]);
+            assert_eq!(shown["title"], builtin["title"]);
+        }
+    }
+    // For people it says what comes next, and begins with `dilute` in English.
+    let told = vitriol(here, &["lesson", "new", "own"]);
+    assert!(text(&told.stdout).contains("vitriol lesson own.toml"));
+    let file = here.join("own.toml");
+    let before = fs::read(&file).unwrap();
+    refuses(
+        here,
+        &["lesson", "new", "own", "--from", "emergency"],
+        2,
+        &["own.toml"],
+    );
+    assert_eq!(fs::read(&file).unwrap(), before);
+    let misspelt = ["lesson", "new", "other", "--from", "dilutte"];
+    refuses(here, &misspelt, 2, &["--from", "did you mean dilute?"]);
+    for wrong in ["../other", "Other", "dilute"] {
+        refuses(here, &["lesson", "new", wrong], 2, &[wrong, "a to z"]);
+    }
+    assert_eq!(fs::read_dir(here).unwrap().count(), lessons.len() * 4 + 1);
+}
+
+/// The lesson of the page is good, and with two faults the program says what the page says that it says.
+#[test]
+fn the_lesson_of_the_page_is_good() {
+    const PAGE: &str = "write-a-lesson.md";
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let lesson = example(PAGE, "version = 1");
+    fs::write(here.join("my-lesson.toml"), &lesson).unwrap();
+    let shown = object(here, &["lesson", "my-lesson.toml"]);
+    assert_eq!(shown["points"], 100);
+    assert_eq!(shown["languages"], serde_json::json!(["en"]));
+    let faulty = lesson.replacen("points = 20", "points = 2000", 1).replacen(
+        "into = \"target\"",
+        "into = \"beaker\"",
+        1,
+    );
+    fs::write(here.join("my-lesson.toml"), faulty).unwrap();
+    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    let said = text(&told.stderr).trim_end();
+    let said = said.strip_prefix("vitriol: ").unwrap();
+    let first = said.lines().next().unwrap();
+    assert_eq!(said, example(PAGE, first).trim_end());
+}
+
+/// Four faults of four kinds are four lines, each with the file, the line and what would be right.
+#[test]
+fn four_faults_are_four_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    object(here, &["lesson", "new", "own", "--language", "de"]);
+    let file = here.join("own.toml");
+    let mut lesson = fs::read_to_string(&file).unwrap();
+    let faults = [
+        ("\nhint_after_s = 15", "hint_after = 15", "`hint_after_s`"),
+        ("\npoints = 25", "points = \"many\"", "a whole number"),
+        (
+            "\ninto = \"target\"",
+            "into = \"vase\"",
+            "\"source\", \"target\"",
+        ),
+        (
+            "\nrule.cool = \"",
+            "rule.cool = \"{flask} ",
+            "write what is meant",
+        ),
+    ];
+    for (from, to, _) in faults {
+        assert!(lesson.contains(from), "{from}");
+        lesson = lesson.replacen(from, &format!("\n{to}"), 1);
+    }
+    fs::write(&file, &lesson).unwrap();
+    refuses(here, &["lesson", "own.toml"], 2, &[]);
+    let told = vitriol(here, &["lesson", "own.toml"]);
+    let said = text(&told.stderr).trim_start_matches("vitriol: ");
+    let said: Vec<&str> = said.lines().collect();
+    assert_eq!(said.len(), faults.len(), "{said:#?}");
+    for (told, (_, to, right)) in said.iter().zip(faults) {
+        let (before, _) = lesson.split_once(to).unwrap();
+        let line = before.matches('\n').count() + 1;
+        assert!(
+            told.starts_with(&format!("own.toml: line {line}: ")),
+            "{told}"
+        );
+        assert!(told.contains(right), "{told}");
+    }
+}
+
+#[test]
+fn the_track_of_the_page_is_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let track = example("write-a-track.md", "name = \"my-track\"");
+    fs::write(here.join("my-track.toml"), track).unwrap();
+    let told = object(here, &["track", "my-track.toml"]);
+    assert_eq!(told["scene"], "two-flasks");
+    assert!(
+        (told["duration_s"].as_f64().unwrap() - 5.0).abs() < 0.02,
+        "{told}"
+    );
+    object(here, &["track", "my-track.toml", "-o", "my-track.mcap"]);
+    let again = object(here, &["track", "my-track.mcap"]);
+    assert_eq!(again["frames"], told["frames"]);
+}

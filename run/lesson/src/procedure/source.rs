@@ -1,0 +1,252 @@
+//! The text of a lesson's file, read field by field, so that a fault of one field hides none of another.
+
+use std::collections::BTreeSet;
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+use super::error::{Fault, LessonError, Problems};
+
+/// Most faults that are told: a file with more is no lesson.
+const MOST_FAULTS: usize = 100;
+
+/// A lesson's file, and the faults that were found in it so far.
+pub(super) struct Source<'t> {
+    file: &'t str,
+    root: Spanned<DeValue<'t>>,
+    /// Offset at which each line begins.
+    lines: Vec<usize>,
+    faults: Vec<Fault>,
+    /// Fields that could not be read. Other problems of them follow from that, and are not told.
+    unread: BTreeSet<String>,
+}
+
+impl<'t> Source<'t> {
+    /// Parses the TOML; `file` is the name in messages.
+    ///
+    /// # Errors
+    /// [`LessonError::Faulty`] with each place that is no TOML. Nothing else is looked for then, because what stands behind such a place
+    /// may not be what was meant.
+    pub fn new(text: &'t str, file: &'t str) -> Result<Self, LessonError> {
+        let (root, errors) = DeTable::parse_recoverable(text);
+        let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let mut source = Self {
+            file,
+            root: Spanned::new(root.span(), DeValue::Table(root.into_inner())),
+            lines: std::iter::once(0)
+                .chain(breaks.map(|(at, _)| at + 1))
+                .collect(),
+            faults: Vec::new(),
+            unread: BTreeSet::new(),
+        };
+        for error in &errors {
+            let at = error.span().map_or(0, |span| span.start);
+            source.fault(at, "", format!("is no TOML: {}", error.message()));
+        }
+        // One mistake may be told several times by the parser.
+        source.faults.dedup_by_key(|fault| fault.line);
+        if errors.is_empty() {
+            Ok(source)
+        } else {
+            Err(source.into_error())
+        }
+    }
+
+    /// The value at that path, and its offset; of a value that is not there the offset of the last part of the path that is.
+    fn find(&self, field: &str) -> (usize, Option<&Spanned<DeValue<'t>>>) {
+        let (mut at, mut value) = (0, &self.root);
+        for part in field.split(['.', '[']).filter(|part| !part.is_empty()) {
+            let next = match (value.get_ref(), part.strip_suffix(']')) {
+                (DeValue::Table(table), None) => {
+                    let found = table.get_key_value(part);
+                    found.map(|(key, value)| (key.span().start, value))
+                }
+                (DeValue::Array(array), Some(index)) => {
+                    let found = index.parse().ok().and_then(|index: usize| array.get(index));
+                    found.map(|value| (value.span().start, value))
+                }
+                _ => None,
+            };
+            match next {
+                Some(next) => (at, value) = next,
+                None => return (at, None),
+            }
+        }
+        (at, Some(value))
+    }
+
+    fn fault(&mut self, at: usize, field: &str, problem: String) {
+        if self.faults.len() < MOST_FAULTS {
+            self.faults.push(Fault {
+                line: self.lines.partition_point(|begin| *begin <= at),
+                field: field.to_owned(),
+                problem,
+            });
+        }
+    }
+
+    /// Says nothing more of that field.
+    pub fn skip(&mut self, field: impl Into<String>) {
+        self.unread.insert(field.into());
+    }
+
+    /// Whether that field, or one that it is in, could not be read.
+    pub fn is_unread(&self, field: &str) -> bool {
+        let ends = field.match_indices(['.', '[']).map(|(end, _)| end);
+        let mut ends = ends.chain([field.len()]);
+        ends.any(|end| self.unread.contains(&field[..end]))
+    }
+
+    /// Refuses that field, of which nothing more is said.
+    pub fn refuse(&mut self, field: &str, problem: impl Into<String>) {
+        if self.is_unread(field) {
+            return;
+        }
+        let at = self.find(field).0;
+        self.fault(at, field, problem.into());
+        self.skip(field);
+    }
+
+    /// Whether there is anything at that path.
+    pub fn has(&self, field: &str) -> bool {
+        self.find(field).1.is_some()
+    }
+
+    /// The value of a field that may be missing; `None` also where it cannot be read.
+    pub fn optional<T: DeserializeOwned>(&mut self, field: &str) -> Option<T> {
+        let (at, value) = self.find(field);
+        let value = value?.clone();
+        let read = T::deserialize(ValueDeserializer::from(value));
+        read.map_err(|error| {
+            let at = error.span().map_or(at, |span| span.start);
+            self.fault(at, field, plain(error.message()));
+            self.skip(field);
+        })
+        .ok()
+    }
+
+    /// The value of a field, or one in its place where it is missing or cannot be read.
+    pub fn read<T: DeserializeOwned>(&mut self, field: &str, in_place: T) -> T {
+        self.optional(field).unwrap_or(in_place)
+    }
+
+    /// Length of the list at that path; 0 where there is nothing.
+    pub fn length(&mut self, field: &str) -> usize {
+        match self.find(field).1.map(|it| it.get_ref()) {
+            None => 0,
+            Some(DeValue::Array(array)) => array.len(),
+            Some(_) => {
+                let of_tables = !field.contains('.');
+                let right = if of_tables {
+                    format!("begin each with [[{field}]]")
+                } else {
+                    "write [ ] around it".to_owned()
+                };
+                self.refuse(field, format!("is no list; {right}"));
+                0
+            }
+        }
+    }
+
+    /// Keys of the table at that path; none where there is nothing.
+    pub fn names(&mut self, field: &str) -> Vec<String> {
+        match self.find(field).1.map(|it| it.get_ref()) {
+            None => Vec::new(),
+            Some(DeValue::Table(table)) => {
+                table.keys().map(|key| key.get_ref().to_string()).collect()
+            }
+            Some(_) => {
+                self.refuse(field, "is no table; it has keys with values");
+                Vec::new()
+            }
+        }
+    }
+
+    /// Refuses each key of the table at that path that is not known, and tells which are missing.
+    pub fn keys(&mut self, field: &str, needed: &[&str], others: &[&str]) {
+        let names = self.names(field);
+        if self.is_unread(field) {
+            return;
+        }
+        let path = |key: &str| match field {
+            "" => key.to_owned(),
+            field => format!("{field}.{key}"),
+        };
+        let known: Vec<&str> = needed.iter().chain(others).copied().collect();
+        let is_there = |key: &&str| names.iter().any(|name| name == key);
+        let missing: Vec<&str> = needed.iter().copied().filter(|it| !is_there(it)).collect();
+        let unknown = names.iter().filter(|name| !known.contains(&name.as_str()));
+        let quoted = |keys: &[&str]| {
+            let keys: Vec<_> = keys.iter().map(|key| format!("`{key}`")).collect();
+            keys.join(", ")
+        };
+        let mut misspelt = false;
+        for name in unknown {
+            let mut problem = format!("unknown field `{name}`; known are {}", quoted(&known));
+            if !missing.is_empty() {
+                problem += &format!("; missing is {}", quoted(&missing));
+            }
+            self.refuse(&path(name), problem);
+            misspelt = true;
+        }
+        for key in missing {
+            // What is misspelt may be what is missing: that is one fault.
+            if misspelt {
+                self.skip(path(key));
+            } else {
+                self.refuse(&path(key), format!("missing field `{key}`; add it"));
+            }
+        }
+    }
+
+    /// Adds problems of fields that could be read.
+    pub fn add(&mut self, problems: Problems) {
+        for it in problems.0 {
+            if !self.is_unread(&it.field) {
+                let at = self.find(&it.field).0;
+                self.fault(at, &it.field, it.problem);
+            }
+        }
+    }
+
+    /// Whether no fault was found.
+    pub fn is_good(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    /// The faults, by their lines.
+    pub fn into_error(mut self) -> LessonError {
+        self.faults.sort_by_key(|fault| fault.line);
+        LessonError::Faulty {
+            file: self.file.to_owned(),
+            faults: self.faults,
+        }
+    }
+}
+
+/// A parser's message, with what would be right in words that are not a programmer's.
+fn plain(message: &str) -> String {
+    if message.starts_with("missing field") {
+        return format!("{message}; add it");
+    }
+    if message.starts_with("wanted exactly 1 element") {
+        return "has none, or several; name one, or put several into `all = [ ]`".to_owned();
+    }
+    match message.rsplit_once(", expected ") {
+        Some((wrong, expected)) if message.starts_with("invalid ") => {
+            let right = match expected {
+                "u8" | "u32" => "a whole number, 0 or more",
+                "f64" => "a number",
+                "a boolean" => "true or false",
+                "a string" => "a text in \"quotes\"",
+                "a sequence" => "a list in [ ]",
+                "newtype variant" => "its keys in { } behind it",
+                it if it.starts_with("struct ") => "a table in { }",
+                other => other,
+            };
+            format!("{wrong}; write {right}")
+        }
+        _ => message.to_owned(),
+    }
+}

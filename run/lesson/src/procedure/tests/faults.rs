@@ -1,0 +1,182 @@
+//! Lessons with several mistakes, which are told in one go, and lessons without English.
+
+use std::collections::BTreeSet;
+
+use super::fits::facts;
+use super::spoiled::GOOD;
+use super::*;
+use crate::Language;
+
+/// The faults of a text, whose scene has these facts.
+fn faults(text: &str) -> Vec<Fault> {
+    let refused = Lesson::parse_for(text, "bad.toml", |_| Ok(Some(facts())));
+    match refused.map(|_| text).unwrap_err() {
+        LessonError::Faulty { faults, .. } => faults,
+        other => panic!("{other}"),
+    }
+}
+
+/// Line of the first place with `piece`, counted from 1.
+fn line_of(text: &str, piece: &str) -> usize {
+    let (before, _) = text.split_once(piece).unwrap();
+    before.matches('\n').count() + 1
+}
+
+/// Of each kind one: a value of a wrong kind, a key that is not known, a number out of its range, a flask that the scene does not have,
+/// a text that is missing.
+#[test]
+fn all_faults_are_told_in_one_go_with_their_lines() {
+    let changes = [
+        (
+            "hint_after_s = 20",
+            "hint_after_s = \"soon\"",
+            "step[0].hint_after_s",
+        ),
+        (
+            "time_limit_s = 120",
+            "time_limit = 120",
+            "step[0].time_limit",
+        ),
+        (
+            "points = 5\ncondition",
+            "points = 2000\ncondition",
+            "step[1].points",
+        ),
+        (
+            "flask = \"b\"\nat_least_ml",
+            "flask = \"c\"\nat_least_ml",
+            "step[2].condition.holds.flask",
+        ),
+        (
+            "step.look = { text = \"看。\", hint = \"那里。\" }\n",
+            "",
+            "texts.zh.step.look",
+        ),
+    ];
+    let mut text = GOOD.to_owned();
+    for (from, to, _) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let found = faults(&text);
+    let fields: Vec<&str> = found.iter().map(|it| it.field.as_str()).collect();
+    assert_eq!(fields, changes.map(|it| it.2), "{found:?}");
+    // The last is told at the texts of its language.
+    let places = [
+        "\"soon\"",
+        "time_limit =",
+        "2000",
+        "\"c\"",
+        "step.pour = { text = \"倒",
+    ];
+    let lines: Vec<usize> = found.iter().map(|it| it.line).collect();
+    assert_eq!(lines, places.map(|it| line_of(&text, it)));
+    let right = [
+        "a number",
+        "`time_limit_s`",
+        "0 to 1000",
+        "\"a\", \"b\"",
+        "give its texts",
+    ];
+    for (fault, right) in found.iter().zip(right) {
+        assert!(fault.problem.contains(right), "{fault}");
+    }
+    let refused = Lesson::parse_for(&text, "bad.toml", |_| Ok(Some(facts())));
+    let message = refused.map(|_| ()).unwrap_err().to_string();
+    for (told, fault) in message.lines().zip(&found) {
+        assert_eq!(told, format!("bad.toml: {fault}"));
+    }
+    assert_eq!(message.lines().count(), changes.len());
+}
+
+/// What only follows from a fault is not told as another one.
+#[test]
+fn one_fault_is_told_once() {
+    for (from, to, field) in [
+        // A key that is misspelt and therefore missing.
+        ("scene =", "scenes =", "scenes"),
+        ("id = \"pour\"", "ID = \"pour\"", "step[0].ID"),
+        // Without the id it is not known which texts belong to the step, and which step `after` names.
+        ("id = \"pour\"\n", "", "step[0].id"),
+        ("name = \"own-1\"", "name = 1", "name"),
+        ("condition.poured", "condition.pored", "step[0].condition"),
+        ("title = \"Own\"", "title = 1", "texts.en.title"),
+        (
+            "step.pour = { text",
+            "step.pour = { texts",
+            "texts.en.step.pour",
+        ),
+        (
+            "acid_from_percent = 15",
+            "acid_from_percent = 150",
+            "step[2].condition.holds.acid_from_percent",
+        ),
+        (
+            "from = \"a\"",
+            "from = \"c\"",
+            "step[0].condition.poured.from",
+        ),
+    ] {
+        let found = faults(&GOOD.replacen(from, to, 1));
+        let fields: Vec<&str> = found.iter().map(|it| it.field.as_str()).collect();
+        assert_eq!(fields, [field], "{to}: {found:?}");
+    }
+    let questions = GOOD.replacen(
+        "[step.condition.poured]",
+        "[step.condition]\nanswered = 3\n[step.x]",
+        1,
+    );
+    let fields: Vec<String> = faults(&questions).into_iter().map(|it| it.field).collect();
+    assert_eq!(fields, ["step[0].condition", "step[0].x"]);
+}
+
+/// Each place that is no TOML, and nothing else.
+#[test]
+fn what_is_no_toml_is_told_by_its_lines() {
+    let text = GOOD
+        .replacen("id = \"stir\"", "id = stir", 1)
+        .replacen("for_s = 3", "for_s = 3 s", 1)
+        .replacen("points = 10", "points = 1001", 1);
+    let found = faults(&text);
+    let lines: BTreeSet<usize> = found.iter().map(|it| it.line).collect();
+    let places = ["id = stir", "for_s = 3 s"];
+    assert_eq!(
+        lines,
+        BTreeSet::from(places.map(|it| line_of(&text, it))),
+        "{found:?}"
+    );
+    assert!(found.iter().all(|it| it.problem.contains("no TOML")));
+}
+
+/// A scene that cannot be read is a fault beside the others.
+#[test]
+fn a_scene_that_is_not_there_is_told_with_the_rest() {
+    let text = GOOD.replacen("points = 10", "points = 1001", 1);
+    let refused = Lesson::parse_for(&text, "bad.toml", |scene| Err(format!("no {scene}")));
+    let message = refused.map(|_| ()).unwrap_err().to_string();
+    let lines: Vec<&str> = message.lines().collect();
+    assert_eq!(lines.len(), 2, "{message}");
+    assert!(lines[0].contains("line 4: scene: no bench"), "{message}");
+    assert!(lines[1].contains("step[0].points"), "{message}");
+}
+
+/// English is a language as the others: a lesson may have one of them alone, which stands in for those that it does not have.
+#[test]
+fn a_lesson_in_one_language_needs_no_english() {
+    let (steps, _) = GOOD.split_once("[texts.zh]").unwrap();
+    let lesson = Lesson::parse(&steps.replace("[texts.en]", "[texts.de]"), "own.toml").unwrap();
+    assert_eq!(lesson.languages(), [Language::De]);
+    for language in Language::ALL {
+        assert_eq!(lesson.texts(language).title, "Own");
+    }
+    let both = Lesson::parse(&GOOD.replace("[texts.en]", "[texts.de]"), "own.toml").unwrap();
+    assert_eq!(both.languages(), [Language::De, Language::Zh]);
+    assert_eq!(both.texts(Language::En).title, "Own");
+    assert_eq!(both.texts(Language::Zh).title, "自己的");
+    let (none, _) = GOOD.split_once("[texts.en]").unwrap();
+    let message = Lesson::parse(none, "own.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("texts: missing") && message.contains("[texts.de]"),
+        "{message}"
+    );
+}
