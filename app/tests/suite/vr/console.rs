@@ -162,7 +162,7 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
             2,
             "1",
             &format!(
-                "Number({}.dataset.drawn) > 0 && /pot, hottest: 1\\d\\d/.test({keys})",
+                "Number({}.dataset.drawn) > 0 && /Pot, hottest: 1\\d\\d/.test({keys})",
                 at("picture")
             ),
         ),
