@@ -105,4 +105,7 @@ pub struct HubArgs {
     /// Where it listens, by HTTPS; 0.0.0.0:8470 for a class, localhost:8470 or 8470 for this computer alone
     #[arg(long, value_name = "ADDRESS:PORT", value_parser = listen_address, default_value = "127.0.0.1:8470")]
     pub listen: SocketAddr,
+    /// Language of the page: en, de, es or zh. Titles of scenes and incidents are in that of the student's program
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
 }

@@ -307,8 +307,7 @@ impl Read<'_> {
             Found::Otherwise(_) => Vec::new(),
         };
         let name = format!("{stem}.report.html");
-        let title = (student, words.language);
-        let page = told_page(title, &attempts, &self.graded.lesson, &words.texts);
+        let page = told_page(student, &attempts, &self.graded.lesson, &words.texts);
         write_over(&out.join(&name), page.as_bytes())?;
         Ok(name)
     }

@@ -36,7 +36,7 @@ enum Said {
 /// # Errors
 /// [`Failure::Input`] for an address that cannot be listened on; [`Failure::Other`].
 pub fn run(args: &HubArgs, format: Format) -> Result<(), Failure> {
-    let hub = start(args.listen, true)?;
+    let hub = start(args.listen, true, args.language)?;
     let first = hub.invite().other()?;
     let report = HubReport {
         console: first.address.clone(),

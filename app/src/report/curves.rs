@@ -1,8 +1,9 @@
 //! The plots that a scene's chemistry and its flasks have.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
-use vitriol_lesson::Texts;
+use vitriol_lesson::{Template, Texts};
 use vitriol_run::{HeatSample, LedgerSample, Sample, units};
 
 use super::model::Report;
@@ -11,9 +12,9 @@ use super::plot::Curve;
 /// A plot's title, unit and curves.
 pub struct Plotted {
     /// Title.
-    pub title: &'static str,
-    /// The unit's symbol.
-    pub unit: &'static str,
+    pub title: String,
+    /// The unit, by its symbol or in words.
+    pub unit: String,
     /// Its curves.
     pub curves: Vec<Curve>,
 }
@@ -25,24 +26,21 @@ impl Report {
         let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
         let mist = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.mist_kg);
         let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
-        let of = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+        let of = |label: &Template, value: &dyn Fn(&Sample) -> f64| {
             (self.curve(label, value), self.largest(value))
         };
-        let mut lost = vec![of("spilled", &spilled)];
+        let (plot, words) = (&texts.plot, &texts.curve);
+        let mut lost = vec![of(&words.spilled, &spilled)];
         if self.series.iter().any(|sample| ledger(sample).is_some()) {
-            lost.push(of("evaporated", &steam));
-            lost.push(of("of it mist in the air", &mist));
+            lost.push(of(&words.evaporated, &steam));
+            lost.push(of(&words.mist, &mist));
         }
         let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
         let curves = lost.into_iter().map(|(curve, _)| curve).collect();
         [
-            self.by_flask(
-                texts,
-                "Mass above the rim, by the flask that it left",
-                |s| &s.above_rim_kg,
-            ),
-            self.by_flask(texts, "Mass that has left a flask", |s| &s.left_kg),
-            self.scaled("Spilled and evaporated", units::mass(most), most, curves),
+            self.by_flask(texts, &plot.above_rim, |s| &s.above_rim_kg),
+            self.by_flask(texts, &plot.left_flask, |s| &s.left_kg),
+            self.scaled(&plot.lost, units::mass(most), most, curves),
         ]
         .into_iter()
         .flatten()
@@ -50,104 +48,106 @@ impl Report {
     }
 
     /// Temperature, acid, superheat and ledger; none where no heat is modelled.
-    pub(super) fn chemistry(&self) -> Vec<Plotted> {
+    pub(super) fn chemistry(&self, texts: &Texts) -> Vec<Plotted> {
         let first = self.series.iter().find_map(|sample| sample.heat.as_ref());
         let Some(first) = first else {
             return Vec::new();
         };
-        let heat = |label: &str, value: &dyn Fn(&HeatSample) -> f64| {
+        let (plot, words) = (&texts.plot, &texts.curve);
+        let heat = |label: &Template, value: &dyn Fn(&HeatSample) -> f64| {
             self.curve(label, &|s| s.heat.as_ref().map_or(f64::NAN, value))
         };
         let mut plots = vec![
             Plotted {
-                title: "Temperature",
-                unit: "°C",
+                title: plot.temperature.to_string(),
+                unit: "°C".into(),
                 curves: vec![
-                    heat("mean", &|h| h.temperature_mean_c),
-                    heat("99th percentile", &|h| h.temperature_p99_c),
-                    heat("maximum", &|h| h.temperature_max_c),
+                    heat(&words.mean, &|h| h.temperature_mean_c),
+                    heat(&words.p99, &|h| h.temperature_p99_c),
+                    heat(&words.maximum, &|h| h.temperature_max_c),
                 ],
             },
             Plotted {
-                title: "Acid",
-                unit: "% by mass",
+                title: plot.acid.to_string(),
+                unit: plot.by_mass.to_string(),
                 curves: vec![
-                    heat("mean", &|h| 100.0 * h.acid_mean),
-                    heat("least", &|h| 100.0 * h.acid_min),
-                    heat("most", &|h| 100.0 * h.acid_max),
+                    heat(&words.mean, &|h| 100.0 * h.acid_mean),
+                    heat(&words.least, &|h| 100.0 * h.acid_min),
+                    heat(&words.most, &|h| 100.0 * h.acid_max),
                 ],
             },
         ];
         if first.superheat_max_k.is_some() {
             plots.push(Plotted {
-                title: "Above the boiling point, at most",
-                unit: "K",
-                curves: vec![heat("superheat", &|h| {
+                title: plot.superheat.to_string(),
+                unit: "K".into(),
+                curves: vec![heat(&words.superheat, &|h| {
                     h.superheat_max_k
                         .map_or(f64::NAN, |superheat| superheat.max(0.0))
                 })],
             });
             plots.push(Plotted {
-                title: "Particles above the boiling point",
-                unit: "",
-                curves: vec![heat("particles", &|h| {
+                title: plot.superheated.to_string(),
+                unit: String::new(),
+                curves: vec![heat(&words.particles, &|h| {
                     h.boiling_particles.map_or(f64::NAN, |count| count as f64)
                 })],
             });
         }
         if first.ledger.is_some() {
-            plots.extend(self.ledger());
+            plots.extend(self.ledger(texts));
         }
         plots
     }
 
     /// Enthalpy, and what of it became what.
-    fn ledger(&self) -> Vec<Plotted> {
-        type Term = (&'static str, fn(&LedgerSample) -> f64);
-        let terms: [Term; 3] = [
-            ("lost from what is there", |l| l.initial_j - l.held_j),
-            ("given to the surroundings", |l| -l.exchanged_j),
-            ("steam", |l| l.steam_j),
+    fn ledger(&self, texts: &Texts) -> Vec<Plotted> {
+        type Term<'a> = (&'a Template, fn(&LedgerSample) -> f64);
+        let (plot, words) = (&texts.plot, &texts.curve);
+        let terms: [Term<'_>; 3] = [
+            (&words.lost, |l| l.initial_j - l.held_j),
+            (&words.given, |l| -l.exchanged_j),
+            (&words.steam, |l| l.steam_j),
         ];
-        let of = |(label, value): Term, factor: f64| {
+        let of = |(label, value): Term<'_>, factor: f64| {
             self.curve(label, &|s| {
                 ledger(s).map_or(f64::NAN, |l| factor * value(l))
             })
         };
-        let most = |(_, value): Term| {
+        let most = |(_, value): Term<'_>| {
             let values = self.series.iter().filter_map(ledger).map(value);
             values.fold(0.0, |most: f64, value| most.max(value.abs()))
         };
         let energy = units::energy(terms.into_iter().map(most).fold(0.0, f64::max));
         vec![
             Plotted {
-                title: "Enthalpy",
-                unit: energy.symbol,
+                title: plot.enthalpy.to_string(),
+                unit: energy.symbol.into(),
                 curves: terms
                     .into_iter()
                     .map(|term| of(term, energy.factor))
                     .collect(),
             },
             Plotted {
-                title: "Bubbles",
-                unit: "mL",
+                title: plot.bubbles.to_string(),
+                unit: "mL".into(),
                 curves: vec![
-                    of(("all", |l| l.bubbles_m3), 1e6),
-                    of(("foam at the surface", |l| l.foam_m3), 1e6),
+                    of((&words.all, |l| l.bubbles_m3), 1e6),
+                    of((&words.foam, |l| l.foam_m3), 1e6),
                 ],
             },
             Plotted {
-                title: "Ledger: what does not add up",
-                unit: "millionths of the enthalpy at the start",
-                curves: vec![of(("closure", |l| 1e6 * l.closure), 1.0)],
+                title: plot.ledger.to_string(),
+                unit: plot.millionths.to_string(),
+                curves: vec![of((&words.closure, |l| 1e6 * l.closure), 1.0)],
             },
         ]
     }
 
     /// A curve over the run.
-    pub(super) fn curve(&self, label: &str, value: &dyn Fn(&Sample) -> f64) -> Curve {
+    pub(super) fn curve(&self, label: impl Display, value: &dyn Fn(&Sample) -> f64) -> Curve {
         Curve {
-            label: label.into(),
+            label: label.to_string(),
             points: self.series.iter().map(|s| (s.t_s, value(s))).collect(),
         }
     }
@@ -161,7 +161,7 @@ impl Report {
     fn by_flask(
         &self,
         texts: &Texts,
-        title: &'static str,
+        title: &Template,
         masses: fn(&Sample) -> &BTreeMap<String, f64>,
     ) -> Option<Plotted> {
         let of = |flask: &str, sample: &Sample| masses(sample).get(flask).copied();
@@ -169,7 +169,7 @@ impl Report {
         let curves: Vec<Curve> = names
             .map(|flask| {
                 let named = self.flask(flask, texts);
-                self.curve(&named, &|s| of(flask, s).unwrap_or(f64::NAN))
+                self.curve(named, &|s| of(flask, s).unwrap_or(f64::NAN))
             })
             .collect();
         let values = self
@@ -183,7 +183,7 @@ impl Report {
     /// In a unit; none where all is zero.
     fn scaled(
         &self,
-        title: &'static str,
+        title: &Template,
         unit: units::Scaled,
         most: f64,
         mut curves: Vec<Curve>,
@@ -191,8 +191,8 @@ impl Report {
         let values = curves.iter_mut().flat_map(|curve| &mut curve.points);
         values.for_each(|(_, value)| *value *= unit.factor);
         (most > 0.0).then_some(Plotted {
-            title,
-            unit: unit.symbol,
+            title: title.to_string(),
+            unit: unit.symbol.into(),
             curves,
         })
     }

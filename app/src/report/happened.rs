@@ -1,10 +1,10 @@
 //! The first screen: what happened, in words and points, each with its moment of the film.
 
-use maud::{Markup, html};
-#[cfg(feature = "class")]
-use vitriol_lesson::Language;
-use vitriol_lesson::procedure::{Verdict, VerdictLine};
-use vitriol_lesson::{Attempt, Cap, Evidence, Score, ScoreLine, Sentence, Texts, Tone, sentences};
+use maud::{Markup, PreEscaped, html};
+use vitriol_lesson::procedure::{Became, Verdict, VerdictLine};
+use vitriol_lesson::{
+    Attempt, Cap, Evidence, Score, ScoreLine, Sentence, Template, Texts, Tone, sentences,
+};
 #[cfg(feature = "class")]
 use vitriol_run::page::page_in;
 
@@ -19,10 +19,10 @@ impl Report {
         let attempts: Vec<_> = self.attempts.iter().zip(&self.score).collect();
         html! {
             section.happened.beside[film] {
-                @if film { div.films { (self.films()) } }
+                @if film { div.films { (self.films(texts)) } }
                 div {
                     (words(&attempts, texts, film))
-                    (self.instructed(film))
+                    (self.instructed(texts, film))
                 }
             }
             (results(&attempts, &self.lesson, texts, film))
@@ -30,10 +30,10 @@ impl Report {
     }
 }
 
-/// A page on a recording that nobody replayed: words, points and lesson of its attempts, without a film. `language` is that of `texts`.
+/// A page on a recording that nobody replayed: words, points and lesson of its attempts, without a film.
 #[cfg(feature = "class")]
 pub fn told_page(
-    (title, language): (&str, Language),
+    title: &str,
     attempts: &[(&Attempt, &Score)],
     lesson: &[Verdict],
     texts: &Texts,
@@ -41,27 +41,27 @@ pub fn told_page(
     let body = html! {
         main {
             header {
-                p.kicker { "Vitriol · what a recording says" }
+                p.kicker { (texts.report.kicker_told) }
                 h1 { (title) }
             }
             section.happened { (words(attempts, texts, false)) }
             (results(attempts, lesson, texts, false))
         }
     };
-    page_in(language.code(), title, STYLE, &body)
+    page_in(texts.language().code(), title, STYLE, &body)
 }
 
 /// What was done in each attempt.
 fn words(attempts: &[(&Attempt, &Score)], texts: &Texts, film: bool) -> Markup {
     let several = attempts.len() > 1;
     html! {
-        h2 { "What happened" }
+        h2 { (texts.report.happened) }
         @for (number, (attempt, score)) in (1..).zip(attempts) {
             @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
             article.attempt {
                 (contact)
                 (heading((number, several), attempt, score, texts))
-                (told(&said, film))
+                (told(&said, texts, film))
             }
         }
     }
@@ -83,39 +83,78 @@ fn results(
         @for (number, (attempt, score)) in judged_of {
             section id=(format!("score-{number}")) {
                 h2 {
-                    "Score"
-                    @if several { " of attempt " (number) ", " (texts.scene(&attempt.scene)) }
+                    @if several { (numbered(&texts.report.score_of, number, attempt, texts)) }
+                    @else { (texts.report.score) }
                 }
                 (points(score, texts, film))
             }
         }
         @for (number, verdict) in (1_usize..).zip(lesson) {
             section id=(format!("lesson-{number}")) {
-                h2 {
-                    "Lesson: " (texts.lesson(&verdict.lesson)) ", " (texts.mode(verdict.mode))
-                    @if lesson.len() > 1 { ", begun for the " (number) ". time" }
-                }
+                h2 { (begun(verdict, (lesson.len() > 1).then_some(number), texts)) }
                 (judged(verdict, texts, film))
             }
         }
     }
 }
 
+/// Heading of what a lesson came to; `number` counts how often it was begun.
+fn begun(verdict: &Verdict, number: Option<usize>, texts: &Texts) -> String {
+    let (lesson, mode) = (texts.lesson(&verdict.lesson), texts.mode(verdict.mode));
+    let holes = [("lesson", lesson), ("mode", mode.as_str())];
+    match number {
+        Some(number) => {
+            let [lesson, mode] = holes;
+            let number = number.to_string();
+            texts
+                .report
+                .lesson_again
+                .fill(&[lesson, mode, ("number", &number)])
+        }
+        None => texts.report.lesson.fill(&holes),
+    }
+}
+
+/// A heading with an attempt's number and scene.
+fn numbered(heading: &Template, number: usize, attempt: &Attempt, texts: &Texts) -> String {
+    let scene = texts.scene(&attempt.scene);
+    heading.fill(&[("number", &number.to_string()), ("scene", scene)])
+}
+
+/// Points, of how many.
+fn part(sentence: &Template, points: &str, of: u32) -> String {
+    sentence.fill(&[("points", points), ("of", &of.to_string())])
+}
+
+/// Outcome of a step or a rule, in words.
+fn became(line: &VerdictLine, texts: &Texts) -> String {
+    let report = &texts.report;
+    let word = match line.became() {
+        Became::Done => &report.done,
+        Became::Failed => &report.failed,
+        Became::Missed => &report.missed,
+        Became::Kept => &report.kept,
+        Became::Broken => &report.broken,
+    };
+    match &line.why {
+        Some(why) => format!("{word}. {}", texts.why(why)),
+        None => word.to_string(),
+    }
+}
+
 /// A lesson's steps and rules, each with its result.
 fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
+    let report = &texts.report;
     let row = |line: &VerdictLine| {
         html! {
             tr {
-                th scope="row" { (texts.asked(&verdict.lesson, &line.id)) p.note { @if line.rule { "rule" } @else { "step" } } }
-                td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
+                th scope="row" { (texts.asked(&verdict.lesson, &line.id)) p.note { @if line.rule { (report.rule) } @else { (report.step) } } }
+                td { (part(&report.part, &line.points.to_string(), line.of)) (bar(line.points, line.of)) }
                 td {
                     ul.said {
                         li {
-                            (moment(line.evidence_s, film))
-                            p {
-                                (line.became().name())
-                                @if let Some(why) = line.why.as_ref() { ". " (texts.why(why)) }
-                            }
+                            (moment(line.evidence_s, texts, film))
+                            p { (became(line, texts)) }
                         }
                     }
                 }
@@ -124,24 +163,36 @@ fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
     };
     html! {
         table.score {
-            thead { tr { th { "For" } th { "Points" } th { "Evidence" } } }
+            (heads(texts))
             tbody { @for line in &verdict.lines { (row(line)) } }
             tfoot {
-                tr { th scope="row" { "In all" } td { (verdict.points) " of " (verdict.of) } td {} }
+                tr {
+                    th scope="row" { (report.in_all) }
+                    td { (part(&report.part, &verdict.points.to_string(), verdict.of)) }
+                    td {}
+                }
             }
         }
     }
 }
 
+/// Heads of a table of points.
+fn heads(texts: &Texts) -> Markup {
+    let report = &texts.report;
+    html! {
+        thead { tr { th { (report.criterion) } th { (report.points) } th { (report.evidence) } } }
+    }
+}
+
 impl Report {
     /// What an instructor did meanwhile; nothing where nobody did.
-    fn instructed(&self, film: bool) -> Markup {
+    fn instructed(&self, texts: &Texts, film: bool) -> Markup {
         html! {
             @if !self.instructor.is_empty() {
-                h4.plain { span.sign aria-hidden="true" { "·" } "What the instructor did" }
+                h4.plain { span.sign aria-hidden="true" { "·" } (texts.report.instructor) }
                 ul.said {
                     @for said in &self.instructor {
-                        li { (moment(Some(said.t_s), film)) p { (said.text) } }
+                        li { (moment(Some(said.t_s), texts, film)) p { (said.text) } }
                     }
                 }
             }
@@ -165,7 +216,7 @@ fn contact(
     let more = said.iter().position(at).map(|n| said.remove(n).more);
     let markup = html! {
         div.contact {
-            (moment(Some(gravest.t_s), film))
+            (moment(Some(gravest.t_s), texts, film))
             div {
                 p.gravest { (words.text) }
                 p { (words.amount) }
@@ -186,26 +237,34 @@ fn heading(
     html! {
         header {
             @if several {
-                h3 { "Attempt " (number) ", " (texts.scene(&attempt.scene)) }
+                h3 { (numbered(&texts.report.attempt, number, attempt, texts)) }
             }
             @if score.of > 0 {
                 p.total {
-                    a href=(format!("#score-{number}")) { strong { (score.points) } " of " (score.of) " points" }
+                    a href=(format!("#score-{number}")) { (total(score, texts)) }
                     (bar(score.points, score.of))
                 }
             } @else {
-                p.total { "No points: nothing was done that could be judged." }
+                p.total { (texts.report.no_points) }
             }
         }
     }
 }
 
+/// Points of an attempt, of how many; the first number is set off.
+fn total(score: &Score, texts: &Texts) -> Markup {
+    let points = format!("<strong>{}</strong>", score.points);
+    // The table is the program's own, and the holes have numbers.
+    PreEscaped(part(&texts.report.total, &points, score.of))
+}
+
 /// The sentences by tone: what went wrong first, since that is what one learns from.
-fn told(sentences: &[Sentence], film: bool) -> Markup {
+fn told(sentences: &[Sentence], texts: &Texts, film: bool) -> Markup {
+    let report = &texts.report;
     let groups = [
-        (Tone::Bad, "bad", "✗", "What went wrong"),
-        (Tone::Good, "good", "✓", "What went well"),
-        (Tone::Plain, "plain", "·", "What else there was"),
+        (Tone::Bad, "bad", "✗", &report.wrong),
+        (Tone::Good, "good", "✓", &report.well),
+        (Tone::Plain, "plain", "·", &report.other),
     ];
     html! {
         @for (tone, class, sign, title) in groups {
@@ -215,7 +274,7 @@ fn told(sentences: &[Sentence], film: bool) -> Markup {
                 ul.said {
                     @for sentence in of_tone() {
                         li {
-                            (moment(sentence.t_s, film))
+                            (moment(sentence.t_s, texts, film))
                             div {
                                 p { (sentence.text) }
                                 @if let Some(more) = &sentence.more { p.note { (more) } }
@@ -230,31 +289,34 @@ fn told(sentences: &[Sentence], film: bool) -> Markup {
 
 /// A score's lines, each with what it was given or withheld for.
 fn points(score: &Score, texts: &Texts, film: bool) -> Markup {
+    let report = &texts.report;
     html! {
         table.score {
-            thead { tr { th { "For" } th { "Points" } th { "Evidence" } } }
+            (heads(texts))
             tbody {
-                @for cap in &score.caps { (cap_row(cap, film)) }
+                @for cap in &score.caps { (cap_row(cap, texts, film)) }
                 @for line in &score.lines { (row(line, texts, film)) }
                 @for left_out in &score.left_out {
                     tr {
                         th scope="row" { (left_out.criterion.name(texts)) }
-                        td { "not judged" }
+                        td { (report.not_judged) }
                         td { (left_out.why) }
                     }
                 }
             }
             tfoot {
                 tr {
-                    th scope="row" { "All that was judged" }
-                    td { (score.points) " of " (score.of) }
+                    th scope="row" { (report.judged) }
+                    td { (part(&report.part, &score.points.to_string(), score.of)) }
                     td {
-                        @if score.uncapped() > score.points { "Without the cap it would be " (score.uncapped()) "." }
+                        @if score.uncapped() > score.points {
+                            (report.uncapped.fill(&[("points", &score.uncapped().to_string())]))
+                        }
                     }
                 }
             }
         }
-        p.note { "Between full points and none they fall in a straight line, rounded down." }
+        p.note { (report.line) }
     }
 }
 
@@ -262,40 +324,40 @@ fn row(line: &ScoreLine, texts: &Texts, film: bool) -> Markup {
     html! {
         tr {
             th scope="row" { (line.criterion.name(texts)) p.note { (line.rule) } }
-            td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
-            td { (proof(&line.evidence, film)) }
+            td { (part(&texts.report.part, &line.points.to_string(), line.of)) (bar(line.points, line.of)) }
+            td { (proof(&line.evidence, texts, film)) }
         }
     }
 }
 
 /// A cap, with what it is for.
-fn cap_row(cap: &Cap, film: bool) -> Markup {
+fn cap_row(cap: &Cap, texts: &Texts, film: bool) -> Markup {
     html! {
         tr {
             th scope="row" { (cap.text) }
-            td { "at most " (cap.most) }
-            td { (proof(&cap.evidence, film)) }
+            td { (texts.report.at_most.fill(&[("points", &cap.most.to_string())])) }
+            td { (proof(&cap.evidence, texts, film)) }
         }
     }
 }
 
-fn proof(evidence: &[Evidence], film: bool) -> Markup {
+fn proof(evidence: &[Evidence], texts: &Texts, film: bool) -> Markup {
     html! {
         ul.said {
             @for evidence in evidence {
-                li { (moment(evidence.t_s, film)) p { (evidence.text) } }
+                li { (moment(evidence.t_s, texts, film)) p { (evidence.text) } }
             }
         }
     }
 }
 
 /// A moment: a link into the film, where there is one.
-fn moment(t_s: Option<f64>, film: bool) -> Markup {
+fn moment(t_s: Option<f64>, texts: &Texts, film: bool) -> Markup {
     html! {
         @if let Some(t_s) = t_s {
             @let text = clock(t_s);
             @if film {
-                a.moment href=(format!("#t={t_s:.3}")) title="Show it in the film" { (text) }
+                a.moment href=(format!("#t={t_s:.3}")) title=(texts.report.show) { (text) }
             } @else {
                 span.moment { (text) }
             }
@@ -345,7 +407,7 @@ mod tests {
             let score = Score::of(attempt, &Rubric::default(), &texts);
             let said = sentences(attempt, &score, &texts);
             let (first, said) = contact(attempt, said, &texts, true);
-            let text = html! { (first) (told(&said, true)) }.into_string();
+            let text = html! { (first) (told(&said, &texts, true)) }.into_string();
             text.replace('\u{a0}', " ")
         };
         assert!(!page(&attempt).contains("class=\"contact\""));

@@ -1,9 +1,11 @@
 //! `report.html`: one file that needs nothing but the film beside it.
 
+use std::fmt::Display;
+
 use maud::{Markup, PreEscaped, html};
-use vitriol_lesson::Texts;
+use vitriol_lesson::{Template, Texts};
 use vitriol_run::output::{INCIDENTS_CSV, REPORT_JSON};
-use vitriol_run::page::{CURVE_COLOURS, page};
+use vitriol_run::page::{CURVE_COLOURS, page_in};
 use vitriol_run::units::{self, grouped, percent, three_digits, with_unit};
 use vitriol_run::{Cut, LedgerSample, Sample};
 
@@ -24,89 +26,92 @@ impl Report {
         let body = html! {
             main {
                 (self.header(told, texts))
-                @if told { (self.happened(texts)) } @else { (self.film()) }
+                @if told { (self.happened(texts)) } @else { (self.film(texts)) }
                 details.solver open[!told] {
-                    summary { h2 { "The solver's figures" } }
-                    @if told { p.lead { (self.run()) } }
+                    summary { h2 { (texts.report.solver) } }
+                    @if told { p.lead { (self.run(texts)) } }
                     (self.figures(texts))
                     (self.whereabouts(texts))
                     (self.plots(texts))
                     (self.statements())
                 }
-                (self.footer())
+                (self.footer(texts))
             }
             script { (PreEscaped(SCRIPT)) }
         };
-        page(&self.heading(texts), STYLE, &body)
+        page_in(texts.language().code(), &self.heading(texts), STYLE, &body)
     }
 
     fn header(&self, told: bool, texts: &Texts) -> Markup {
         html! {
             header {
-                p.kicker { "Vitriol · replay of a recorded pour" }
+                p.kicker { (texts.report.kicker) }
                 h1 { (self.heading(texts)) }
-                @if !told { p.lead { (self.run()) } }
+                @if !told { p.lead { (self.run(texts)) } }
             }
         }
     }
 
     /// What ran, and on what.
-    fn run(&self) -> Markup {
+    fn run(&self, texts: &Texts) -> Markup {
+        let ran = texts.report.ran.fill(&[
+            ("particles", &grouped(self.fluid_particles)),
+            (
+                "size",
+                &with_unit(self.scene.d_m, units::length(self.scene.d_m)),
+            ),
+            ("time", &three_digits(self.simulated_s)),
+            ("device", &self.device.name),
+        ]);
         html! {
-            (grouped(self.fluid_particles)) " particles of "
-            (with_unit(self.scene.d_m, units::length(self.scene.d_m)))
-            " for " (three_digits(self.simulated_s)) " s, on " (self.device.name) "."
-            @if self.lost_particles == 0 && self.nan_particles == 0 {
-                " None was lost."
-            }
+            (ran)
+            @if self.lost_particles == 0 && self.nan_particles == 0 { " " (texts.report.none_lost) }
         }
     }
 
     fn figures(&self, texts: &Texts) -> Markup {
         let pace = self.wall_s / self.simulated_s.max(f64::MIN_POSITIVE);
+        let words = &texts.figure;
+        let pace = words.wall_s_note.fill(&[("pace", &three_digits(pace))]);
         html! {
-            section.figures aria-label="Figures" {
-                (figure("density_error_mean", "Density error, mean",
-                    &percent(self.density_error_mean), "compression over rest density, over the run", false))
-                (figure("density_error_p99", "Density error, 99th percentile",
-                    &percent(self.density_error_p99), "worst moment of the run", false))
-                (figure("lost_particles", "Lost particles",
-                    &grouped(self.lost_particles), "through a wall, the most at any sample",
+            section.figures aria-label=(texts.report.figures) {
+                (figure("density_error_mean", &words.density_error_mean,
+                    &percent(self.density_error_mean), &words.density_error_mean_note, false))
+                (figure("density_error_p99", &words.density_error_p99,
+                    &percent(self.density_error_p99), &words.density_error_p99_note, false))
+                (figure("lost_particles", &words.lost_particles,
+                    &grouped(self.lost_particles), &words.lost_particles_note,
                     self.lost_particles > 0))
-                (figure("nan_particles", "Non-finite particles",
-                    &grouped(self.nan_particles), "taken out of the run",
+                (figure("nan_particles", &words.nan_particles,
+                    &grouped(self.nan_particles), &words.nan_particles_note,
                     self.nan_particles > 0))
                 @if let Some(hottest) = self.hottest() {
-                    (figure("temperature_max_c", "Highest temperature",
-                        &format!("{hottest:.1} °C"), "of a particle at any sample", false))
+                    (figure("temperature_max_c", &words.temperature_max_c,
+                        &format!("{hottest:.1} °C"), &words.temperature_max_c_note, false))
                 }
                 @if let Some(ledger) = self.ledger_at_end() {
-                    (figure("steam_kg", "Evaporated",
+                    (figure("steam_kg", &words.steam_kg,
                         &with_unit(ledger.steam_kg, units::mass(ledger.steam_kg)),
-                        "water that left as steam", false))
+                        &words.steam_kg_note, false))
                     @if ledger.spray_fallen_kg > 0.0 {
-                        (figure("spray_fallen_kg", "Spattered",
+                        (figure("spray_fallen_kg", &words.spray_fallen_kg,
                             &with_unit(ledger.spray_fallen_kg, units::mass(ledger.spray_fallen_kg)),
-                            "drops of bubbles that came to rest on glass, table and floor", false))
+                            &words.spray_fallen_kg_note, false))
                     }
                     @let air = ledger.air_kg / AIR_DENSITY;
                     @if air > 0.0 {
-                        (figure("air_kg", "Air taken down",
-                            &with_unit(air, units::volume(air)),
-                            "by streams, which comes up again in bubbles", false))
+                        (figure("air_kg", &words.air_kg,
+                            &with_unit(air, units::volume(air)), &words.air_kg_note, false))
                     }
-                    (figure("ledger_closure", "Ledger",
+                    (figure("ledger_closure", &words.ledger_closure,
                         &format!("{:.1e}", ledger.closure.abs()),
-                        "enthalpy that does not add up at the end, relative", ledger.closure.abs() > 1e-4))
+                        &words.ledger_closure_note, ledger.closure.abs() > 1e-4))
                 }
                 @for said in texts.boiling(&self.boiling) {
                     (figure(said.key, &said.name, &said.value, &said.note, false))
                 }
-                (figure("frames", "Frames",
-                    &grouped(self.frames), "of the simulation's fixed clock", false))
-                (figure("wall_s", "Time taken",
-                    &format!("{} s", three_digits(self.wall_s)),
-                    &format!("{} s for each simulated second", three_digits(pace)), false))
+                (figure("frames", &words.frames, &grouped(self.frames), &words.frames_note, false))
+                (figure("wall_s", &words.wall_s, &format!("{} s", three_digits(self.wall_s)), &pace, false))
             }
         }
     }
@@ -120,23 +125,24 @@ impl Report {
         self.series.last()?.heat.as_ref()?.ledger.as_ref()
     }
 
-    fn film(&self) -> Markup {
+    fn film(&self, texts: &Texts) -> Markup {
         html! {
             @if self.film.is_some() {
                 section {
-                    h2 { "Film" }
-                    (self.films())
+                    h2 { (texts.report.film) }
+                    (self.films(texts))
                 }
             }
         }
     }
 
     /// The film, and that of temperature.
-    pub(super) fn films(&self) -> Markup {
+    pub(super) fn films(&self, texts: &Texts) -> Markup {
+        let report = &texts.report;
         html! {
             @for film in self.film.iter().chain(&self.film_temperature) {
                 figure.film {
-                    figcaption { (caption(&film.colour)) }
+                    figcaption { (caption(&film.colour, texts)) }
                     video src=(film.path) controls loop playsinline
                         poster=[film.poster.as_deref()] data-cuts=[cuts(film)]
                         width=(film.width) height=(film.height) {}
@@ -144,27 +150,30 @@ impl Report {
             }
             @if let Some(film) = &self.film {
                 p.note {
-                    (film.width) " × " (film.height) ", " (film.fps) " Hz, "
-                    (grouped(film.frames))
-                    " frames. "
-                    @if let Some(left_out) = left_out(film, self.simulated_s) {
-                        "Idle moments are left out: " (left_out) " of " (three_digits(self.simulated_s)) " s. "
+                    (report.frames.fill(&[
+                        ("width", &film.width.to_string()),
+                        ("height", &film.height.to_string()),
+                        ("rate", &film.fps.to_string()),
+                        ("frames", &grouped(film.frames)),
+                    ])) " "
+                    @if let Some(idle) = left_out(film, self.simulated_s) {
+                        (report.idle.fill(&[("idle", &idle), ("whole", &three_digits(self.simulated_s))])) " "
                     }
-                    @if self.attempts.is_empty() { "A click into a plot below goes to that moment." }
-                    @else { "A time beside the words goes to that moment, as does a click into a plot." }
+                    @if self.attempts.is_empty() { (report.click) } @else { (report.click_words) }
                 }
             }
         }
     }
 
     fn whereabouts(&self, texts: &Texts) -> Markup {
+        let report = &texts.report;
         let total = self.mass_kg.total();
         let unit = units::mass(total);
         let share = |kg: f64| if total > 0.0 { kg / total } else { 0.0 };
         html! {
             section {
-                h2 { "Where it is at the end" }
-                div.bar role="img" aria-label="Shares of the mass by place" {
+                h2 { (report.whereabouts) }
+                div.bar role="img" aria-label=(report.shares) {
                     @for (index, (_, kg)) in self.mass_kg.places().enumerate() {
                         @if kg > 0.0 {
                             span class=(colour_class(index))
@@ -173,18 +182,18 @@ impl Report {
                     }
                 }
                 table {
-                    thead { tr { th { "Place" } th.number { "Mass" } th.number { "Share" } } }
+                    thead { tr { th { (report.place) } th.number { (report.mass) } th.number { (report.share) } } }
                     tbody {
                         @for (index, (place, kg)) in self.mass_kg.places().enumerate() {
                             tr {
-                                th scope="row" { i class=(colour_class(index)) {} (self.flask(place, texts)) }
+                                th scope="row" { i class=(colour_class(index)) {} (self.place(place, texts)) }
                                 td.number { (with_unit(kg, unit)) }
                                 td.number { (format!("{:.1} %", share(kg) * 100.0)) }
                             }
                         }
                     }
                     tfoot {
-                        tr { th scope="row" { "All" } td.number { (with_unit(total, unit)) } td {} }
+                        tr { th scope="row" { (report.all) } td.number { (with_unit(total, unit)) } td {} }
                     }
                 }
             }
@@ -192,7 +201,8 @@ impl Report {
     }
 
     fn plots(&self, texts: &Texts) -> Markup {
-        let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| self.curve(label, value);
+        let (titles, words) = (&texts.plot, &texts.curve);
+        let curve = |label: &Template, value: &dyn Fn(&Sample) -> f64| self.curve(label, value);
         let energy = units::energy(self.largest(&|s| s.kinetic_energy_j));
         let mass = units::mass(self.largest(&|s| s.mass_kg.total()));
         let places: Vec<Curve> = self
@@ -200,29 +210,29 @@ impl Report {
             .places()
             .enumerate()
             .map(|(index, (place, _))| {
-                curve(&self.flask(place, texts), &|s| {
+                self.curve(self.place(place, texts), &|s| {
                     s.mass_kg.places().nth(index).map_or(f64::NAN, |p| p.1) * mass.factor
                 })
             })
             .collect();
         html! {
             section {
-                h2 { "Over time" }
+                h2 { (texts.report.over_time) }
                 div.plots {
-                    (plot("Density error", "%", &[
-                        curve("mean", &|s| s.density_error_mean * 100.0),
-                        curve("99th percentile", &|s| s.density_error_p99 * 100.0),
-                    ]))
-                    (plot("Kinetic energy", energy.symbol, &[
-                        curve("kinetic energy", &|s| s.kinetic_energy_j * energy.factor),
-                    ]))
-                    (plot("Mass by place", mass.symbol, &places))
-                    @for plotted in self.chemistry().iter().chain(&self.departures(texts)) {
-                        (plot(plotted.title, plotted.unit, &plotted.curves))
+                    (plot(&titles.density_error, "%", &[
+                        curve(&words.mean, &|s| s.density_error_mean * 100.0),
+                        curve(&words.p99, &|s| s.density_error_p99 * 100.0),
+                    ], texts))
+                    (plot(&titles.kinetic_energy, energy.symbol, &[
+                        curve(&words.kinetic_energy, &|s| s.kinetic_energy_j * energy.factor),
+                    ], texts))
+                    (plot(&titles.by_place, mass.symbol, &places, texts))
+                    @for plotted in self.chemistry(texts).iter().chain(&self.departures(texts)) {
+                        (plot(&plotted.title, &plotted.unit, &plotted.curves, texts))
                     }
-                    (plot("Neighbour list rebuilt", "times since the start", &[
-                        curve("rebuilds", &|s| s.neighbour_rebuilds as f64),
-                    ]))
+                    (plot(&titles.rebuilt, &titles.times.to_string(), &[
+                        curve(&words.rebuilds, &|s| s.neighbour_rebuilds as f64),
+                    ], texts))
                 }
             }
         }
@@ -242,7 +252,8 @@ impl Report {
             three_digits(scene.length_scale)
         };
         html! {
-            section.statements {
+            // For who knows the solver, in English.
+            section.statements lang="en" {
                 div {
                     h2 { "Scene and solver" }
                     table { tbody {
@@ -295,6 +306,18 @@ impl Report {
         done.unwrap_or_else(|| texts.scene(&self.scene.name).to_owned())
     }
 
+    /// Name of a place of liquid: a flask, or what is beside them.
+    fn place(&self, name: &str, texts: &Texts) -> String {
+        let report = &texts.report;
+        match name {
+            _ if self.mass_kg.flasks.contains_key(name) => self.flask(name, texts),
+            "table" => report.table.to_string(),
+            "floor" => report.floor.to_string(),
+            "air" => report.air.to_string(),
+            other => other.to_owned(),
+        }
+    }
+
     /// Name of the flask that the scene's file calls so; another place's name stays as it is.
     pub(super) fn flask(&self, name: &str, texts: &Texts) -> String {
         let mut attempts = self.attempts.iter();
@@ -305,16 +328,17 @@ impl Report {
         }
     }
 
-    fn footer(&self) -> Markup {
+    fn footer(&self, texts: &Texts) -> Markup {
+        let report = &texts.report;
         html! {
             footer {
-                p { "Made by " (self.program) " with" }
+                p { (report.made_by.fill(&[("program", &self.program)])) }
                 pre { code { (self.command) } }
-                @if let Some(recording) = &self.recording { p { (recording.text()) } }
-                p { "Hash of the final state " code { (self.state_hash) } ". All numbers: "
-                    a href=(REPORT_JSON) { (REPORT_JSON) } "."
+                @if let Some(recording) = &self.recording { p lang="en" { (recording.text()) } }
+                p { (report.hash) " " code { (self.state_hash) } ". "
+                    (report.numbers) " " a href=(REPORT_JSON) { (REPORT_JSON) } "."
                     @if !self.attempts.is_empty() {
-                        " What went wrong, as a table: " a href=(INCIDENTS_CSV) { (INCIDENTS_CSV) } "."
+                        " " (report.incidents) " " a href=(INCIDENTS_CSV) { (INCIDENTS_CSV) } "."
                     }
                 }
             }
@@ -322,7 +346,8 @@ impl Report {
     }
 }
 
-fn figure(key: &str, name: &str, value: &str, note: &str, bad: bool) -> Markup {
+fn figure(key: &str, name: &dyn Display, value: &str, note: &dyn Display, bad: bool) -> Markup {
+    let (name, note) = (name.to_string(), note.to_string());
     html! {
         div.figure.bad[bad] {
             p.name { (name) }
@@ -350,12 +375,14 @@ fn left_out(film: &FilmStatement, simulated_s: f64) -> Option<String> {
 }
 
 /// What a film shows.
-fn caption(colour: &str) -> String {
-    if colour == "liquid" {
-        "Liquid in glass; tints, where it has any, are artificial: water bluish, acid yellow"
-            .to_owned()
-    } else {
-        format!("Coloured by {colour}")
+fn caption(colour: &str, texts: &Texts) -> String {
+    let report = &texts.report;
+    match colour {
+        "liquid" => report.liquid.to_string(),
+        "speed" => report.speed.to_string(),
+        "temperature" => report.temperature.to_string(),
+        "acid" => report.acid.to_string(),
+        other => other.to_owned(),
     }
 }
 
@@ -363,7 +390,8 @@ fn colour_class(index: usize) -> String {
     format!("c{}", index % CURVE_COLOURS.len())
 }
 
-fn plot(title: &str, unit: &str, curves: &[Curve]) -> Markup {
+fn plot(title: &dyn Display, unit: &str, curves: &[Curve], texts: &Texts) -> Markup {
+    let title = title.to_string();
     let drawn = over_time(curves);
     html! {
         figure.plot {
@@ -384,7 +412,7 @@ fn plot(title: &str, unit: &str, curves: &[Curve]) -> Markup {
                         (PreEscaped(svg))
                     }
                 }
-                None => p.note { "Nothing was sampled." }
+                None => p.note { (texts.report.unsampled) }
             }
         }
     }

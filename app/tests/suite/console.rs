@@ -84,13 +84,23 @@ fn at(id: &str) -> String {
     format!("document.getElementById('{id}')")
 }
 
-/// `vitriol hub` and a student's `vitriol vr --hub`: the page shows the student by name and view, and ends the session.
+/// `vitriol hub` and a student's `vitriol vr --hub`: the page shows the student by name and view, in the hub's language, and ends the session.
 #[test]
 fn a_class_has_one_console() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(mut tab) = Tab::new() else { return };
-    let mut hub = Running::start(folder, &["hub", "--json", "--listen", "127.0.0.1:0"]);
+    let mut hub = Running::start(
+        folder,
+        &[
+            "hub",
+            "--json",
+            "--listen",
+            "127.0.0.1:0",
+            "--language",
+            "de",
+        ],
+    );
     let told = hub.object();
     let students = folder.join("hub.txt");
     std::fs::write(&students, told["students"].as_str().unwrap()).unwrap();
@@ -130,11 +140,11 @@ fn a_class_has_one_console() {
     // What was done stays on the page, whose hub goes on.
     tab.until(&format!("!{}.hidden", at("summary")));
     let kept = tab.eval(&format!("{}.textContent", at("summary-recording")));
-    assert_eq!(kept, "It was not recorded.");
+    assert_eq!(kept, "Sie wurde nicht aufgenommen.");
     assert!(tab.complaints().is_empty());
 }
 
-/// A replay is shown while it runs, is held and let go, and offers nothing that would change it.
+/// A replay is shown while it runs, in the language that is asked for, is held and let go, and offers nothing that would change it.
 #[test]
 fn a_replay_is_watched_and_held() {
     let folder = tempfile::tempdir().unwrap();
@@ -146,6 +156,8 @@ fn a_replay_is_watched_and_held() {
         "--json",
         "two-flasks",
         "--live",
+        "--language",
+        "es",
         "--seconds",
         "1",
         "--scene",
@@ -156,6 +168,8 @@ fn a_replay_is_watched_and_held() {
     let mut replay = Running::start(folder, &arguments);
     tab.go(&replay.console());
     tab.until(&format!("Number({}.dataset.drawn) > 0", at("picture")));
+    assert_eq!(tab.eval("document.documentElement.lang"), "es");
+    assert_eq!(tab.eval(&format!("{}.textContent", at("pause"))), "Pausa");
     assert_eq!(tab.eval(&format!("{}.hidden", at("send"))), true);
     tab.eval(&format!("{}.click()", at("pause")));
     tab.until(&format!(

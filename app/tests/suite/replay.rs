@@ -2,6 +2,7 @@
 //! what the loop, the observer and the report make of them.
 
 mod idle;
+mod language;
 mod toy;
 
 use std::cell::Cell;
@@ -14,7 +15,7 @@ use vitriol::report::Report;
 use vitriol_run::{Action, Colour, Experiment, Failure, Format, Setup};
 
 use toy::{FLASK, Toy, replay, replay_of, report_of};
-use vitriol_lesson::{Attempt, Event, Language, Rubric, Texts};
+use vitriol_lesson::{Attempt, Event, Rubric, Texts};
 use vitriol_record::store::Store;
 use vitriol_sim::scene::PictureRoom;
 use vitriol_tests::browser::{self, Look};
@@ -317,25 +318,6 @@ fn a_report_of_attempts_is_read_again() {
     idle.judge(&Rubric::default(), &texts);
     let page = idle.to_html(&texts);
     assert!(page.contains("No points") && !page.contains("id=\"score-1\""));
-}
-
-/// Title, scenes, flasks and sentences are in the language that is asked for, and the command line asks for it again.
-#[test]
-fn a_report_speaks_the_language_that_is_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let asked = ["--seconds", "0.1", "--no-video", "--language", "de"];
-    replay(folder.path(), &asked, u64::MAX).unwrap();
-    let report = report_of(folder.path());
-    assert!(report.command.contains(" --language de"));
-    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("<h1>Wasser und zwei Bechergläser</h1>"));
-    let page = told(report).0.to_html(&Texts::of(Language::De).unwrap());
-    for part in [
-        "<h1>Wasser wurde in konzentrierte Säure gegossen</h1>",
-        "Das Becherglas mit 98-prozentiger Säure kochte über",
-    ] {
-        assert!(page.contains(part), "{part}");
-    }
 }
 
 #[test]

@@ -52,6 +52,8 @@ pub struct Config {
     pub folder: PathBuf,
     /// Names of this computer that browsers may use, beside its addresses and `localhost`.
     pub names: Vec<String>,
+    /// Code of the page's language (ISO 639-1): `en`, `de`, `es` or `zh`. In place of another one the page is English.
+    pub language: &'static str,
 }
 
 /// The present load of a hub.
@@ -118,7 +120,7 @@ impl Hub {
             },
             gate: Gate::new(key),
             registry: Registry::default(),
-            page: Page::new(),
+            page: Page::new(config.language),
             host: told.to_string(),
         });
         let server = serve(listener, acceptor, shared.clone()).map_err(Error::Thread)?;

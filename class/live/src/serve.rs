@@ -70,7 +70,7 @@ impl Serving {
             });
         }
         let loopback = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
-        let hub = start(args.listen.unwrap_or(loopback), false)?;
+        let hub = start(args.listen.unwrap_or(loopback), false, language)?;
         // The first of them finds a place.
         let port = hub.student(student.clone()).other()?;
         let port = port
@@ -117,11 +117,11 @@ impl Serving {
     }
 }
 
-/// A hub that listens there.
+/// A hub that listens there, with pages in that language.
 ///
 /// # Errors
 /// [`Failure::Input`] where it cannot.
-pub fn start(listen: SocketAddr, always_tls: bool) -> Result<Hub, Failure> {
+pub fn start(listen: SocketAddr, always_tls: bool, language: Language) -> Result<Hub, Failure> {
     let name = computer();
     let names = name.iter().cloned();
     let names = names.chain(name.iter().map(|name| format!("{name}.local")));
@@ -130,6 +130,7 @@ pub fn start(listen: SocketAddr, always_tls: bool) -> Result<Hub, Failure> {
         always_tls,
         folder: folder()?,
         names: names.collect(),
+        language: language.code(),
     };
     Hub::start(config).input()
 }

@@ -279,7 +279,7 @@ mod tests {
         );
         assert_eq!(
             said(Language::Es, "{from:of} en {flask:into}"),
-            "del vaso con ácido al 98 % en el vaso con agua"
+            "del vaso de precipitados con ácido al 98 % en el vaso de precipitados con agua"
         );
         // A flask that nothing is known of, as in recordings of older versions.
         let texts = Texts::english().unwrap();

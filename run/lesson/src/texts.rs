@@ -1,6 +1,7 @@
 //! The string table: sentences about an attempt and in a lesson, in one language.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use serde::Deserialize;
 use vitriol_sim::flask::glassware::Vessel;
@@ -8,10 +9,22 @@ use vitriol_sim::flask::glassware::Vessel;
 use crate::language::Language;
 use crate::procedure::LessonTexts;
 
-const ENGLISH: &str = include_str!("../texts/en.toml");
-const GERMAN: &str = include_str!("../texts/de.toml");
-const SPANISH: &str = include_str!("../texts/es.toml");
-const CHINESE: &str = include_str!("../texts/zh.toml");
+const ENGLISH: &str = concat!(
+    include_str!("../texts/en.toml"),
+    include_str!("../texts/report/en.toml")
+);
+const GERMAN: &str = concat!(
+    include_str!("../texts/de.toml"),
+    include_str!("../texts/report/de.toml")
+);
+const SPANISH: &str = concat!(
+    include_str!("../texts/es.toml"),
+    include_str!("../texts/report/es.toml")
+);
+const CHINESE: &str = concat!(
+    include_str!("../texts/zh.toml"),
+    include_str!("../texts/report/zh.toml")
+);
 
 /// Why a string table is refused.
 #[derive(Debug, thiserror::Error)]
@@ -44,12 +57,12 @@ pub enum TextsError {
 /// A sentence with named holes, such as `{flask}`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct Template(String);
+pub struct Template(String);
 
 impl Template {
     /// The sentence with its holes filled. What fills a hole that is written with a capital, `{Flask}`, gets one.
     /// Braces in a filled-in value stay as they are.
-    pub(crate) fn fill(&self, holes: &[(&str, &str)]) -> String {
+    pub fn fill(&self, holes: &[(&str, &str)]) -> String {
         let mut text = String::new();
         for part in parts(&self.0) {
             match part {
@@ -78,6 +91,12 @@ impl Template {
     }
 }
 
+impl fmt::Display for Template {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
 enum Part<'a> {
     Text(&'a str),
     Hole(&'a str),
@@ -100,6 +119,17 @@ macro_rules! section {
         #[derive(Clone, Debug, PartialEq, Deserialize)]
         #[serde(deny_unknown_fields)]
         pub(crate) struct $name { $(pub(crate) $key: Template,)+ }
+    };
+    (pub $name:ident, $what:literal: $($key:ident)+) => {
+        #[doc = $what]
+        #[derive(Clone, Debug, PartialEq, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $(
+                #[doc = concat!("Text `", stringify!($key), "`.")]
+                pub $key: Template,
+            )+
+        }
     };
 }
 
@@ -129,11 +159,26 @@ section!(PanelTexts: hint skip finish steps more);
 section!(GlassTexts: water acid layers empty left right nth);
 section!(Done: water_into_acid acid_into_water);
 section!(Forms: label subject into of);
+section!(pub ReportTexts, "Headings and fixed sentences of a report.": kicker kicker_told happened wrong well other instructor
+    score score_of attempt lesson lesson_again criterion points evidence step rule done failed missed kept broken in_all judged
+    not_judged part total at_most uncapped line no_points show film frames idle click click_words liquid speed temperature acid
+    solver figures ran none_lost whereabouts shares place mass share all table floor air over_time unsampled made_by hash numbers
+    incidents);
+section!(pub FigureTexts, "Names of figures of a run, each with its note.": density_error_mean density_error_mean_note
+    density_error_p99 density_error_p99_note lost_particles lost_particles_note nan_particles nan_particles_note temperature_max_c
+    temperature_max_c_note steam_kg steam_kg_note spray_fallen_kg spray_fallen_kg_note air_kg air_kg_note ledger_closure
+    ledger_closure_note frames frames_note wall_s wall_s_note);
+section!(pub PlotTexts, "Titles and units of a report's plots.": density_error kinetic_energy by_place above_rim left_flask lost
+    temperature acid by_mass superheat superheated enthalpy bubbles ledger millionths rebuilt times);
+section!(pub CurveTexts, "Legends of a report's plots.": mean p99 maximum least most kinetic_energy spilled evaporated mist
+    superheat particles lost given steam all foam closure rebuilds);
 
 /// The texts of one language: a file of `run/lesson/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Texts {
+    #[serde(skip)]
+    language: Language,
     pub(crate) number: Number,
     pub(crate) unit: Unit,
     pub(crate) amount: Amount,
@@ -162,6 +207,14 @@ pub struct Texts {
     scene: BTreeMap<String, String>,
     /// Texts of the built-in lessons, by name.
     pub(crate) lesson: BTreeMap<String, LessonTexts>,
+    /// Headings and fixed sentences of a report.
+    pub report: ReportTexts,
+    /// Names of figures of a run.
+    pub figure: FigureTexts,
+    /// Titles and units of a report's plots.
+    pub plot: PlotTexts,
+    /// Legends of a report's plots.
+    pub curve: CurveTexts,
 }
 
 impl Texts {
@@ -178,7 +231,13 @@ impl Texts {
     /// # Errors
     /// As for [`Texts::parse`], which a test rules out.
     pub fn of(language: Language) -> Result<Self, TextsError> {
-        Self::parse(table(language))
+        let texts = Self::parse(table(language))?;
+        Ok(Self { language, ..texts })
+    }
+
+    /// The language of the texts.
+    pub fn language(&self) -> Language {
+        self.language
     }
 
     /// Title of the scene of that name; of one that is not built in its name.

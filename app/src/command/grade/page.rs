@@ -75,7 +75,7 @@ impl Shown<'_> {
                         (line.student)
                     }
                 }
-                @if self.scenes { td { (line.scene) } }
+                @if self.scenes { td { (self.words.texts.scene(&line.scene)) } }
                 (points(line.points.zip(line.of)))
                 (self.first_wrong(line))
                 td { @for cap in &line.caps { p { (cap) } } }

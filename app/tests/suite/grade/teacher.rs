@@ -185,12 +185,19 @@ fn a_row_says_what_went_wrong_first() {
         let plain = first.text.replace('&', "&amp;");
         assert!(told.contains(&plain), "{language}: {told}");
         assert!(told.contains("Björn &lt;b&gt;") && !told.contains("Björn <b>"));
+        // Its headings too.
+        assert!(told.contains(&format!("<h2>{}</h2>", texts.report.happened)));
+        assert!(told.contains(&format!("<th>{}</th>", texts.report.evidence)));
+        assert_eq!(told.contains("What happened"), language == "en");
         let page = fs::read_to_string(here.join("out/grades.html")).unwrap();
         assert!(page.contains(&format!("lang=\"{language}\"")), "{language}");
         assert!(
             page.contains(moment) && page.contains(nothing),
             "{language}: {page}"
         );
+        // Scenes are called by their titles.
+        let title = format!("<td>{}</td>", texts.scene("hot-acid"));
+        assert!(page.contains(&title) && !page.contains("<td>hot-acid</td>"));
         // It loads nothing, and its links are escaped.
         assert!(!page.contains("src=") && !page.contains("http"), "{page}");
         assert!(

@@ -1,4 +1,8 @@
 // The document, and the socket to the hub.
+// A text of the page's language, with its holes filled.
+const tr = (key, holes = {}) => (TEXTS[key] ?? key).replace(/\{(\w+)\}/g, (_, hole) => holes[hole] ?? "");
+// So many of a kind, one or more.
+const count = (number, kind) => tr(kind + (number === 1 ? "_one" : "_more"), { number });
 const $ = (id) => document.getElementById(id);
 const make = (tag, text = "", mark = "") => {
   const made = document.createElement(tag);
@@ -44,9 +48,9 @@ let tries = 0;
 function again() {
   if (page.over !== null) {
     showSummary();
-    return write($("link"), "The session is over.");
+    return write($("link"), tr("session_over"));
   }
-  write($("link"), "No connection to the program; trying again …");
+  write($("link"), tr("no_connection"));
   retry = setTimeout(connect, patience);
   patience = Math.min(2 * patience, 5000);
 }
@@ -70,7 +74,7 @@ async function connect() {
   socket.onopen = () => {
     patience = 250;
     page.socket = socket;
-    write($("link"), "Connected");
+    write($("link"), tr("connected"));
     tellPictures();
     if (page.opened === null) show("class"); else say({ say: "open", student: page.opened });
   };
@@ -111,11 +115,11 @@ async function enter(code) {
   try {
     answer = await fetch("enter", { method: "POST", body: code });
   } catch {
-    return ask("The program does not answer. Is it still running?");
+    return ask(tr("no_answer"));
   }
   if (answer.ok) { $("code").value = ""; return connect(); }
-  if (answer.status === 429) return ask(`Too many wrong codes: wait ${answer.headers.get("retry-after")} seconds.`);
-  ask("This code is wrong, or was used before. Ask for a new one.");
+  if (answer.status === 429) return ask(tr("too_many", { seconds: answer.headers.get("retry-after") }));
+  ask(tr("wrong_code"));
 }
 
 $("enter").onsubmit = (event) => {
@@ -152,5 +156,5 @@ function begin() {
 addEventListener("hashchange", () => {
   if (page.socket?.readyState !== WebSocket.OPEN) return begin();
   history.replaceState(null, "", location.pathname);
-  write($("link"), "Connected already: the code was not used");
+  write($("link"), tr("connected_already"));
 });

@@ -10,11 +10,11 @@ function card(student) {
   button.dataset.student = student.student;
   button.append(make("strong", student.name));
   const lines = [
-    student.here ? student.scene || "–" : "not connected",
-    student.step ? `step ${student.step[0]} of ${student.step[1]}` : "",
-    known(student.hottest_c) ? `hottest ${student.hottest_c.toFixed(1)} °C` : "",
-    student.paused ? "paused" : "",
-    student.incidents > 0 ? `⚠ ${student.incidents} incident${student.incidents > 1 ? "s" : ""}: ${student.gravest ?? ""}` : "",
+    student.here ? student.scene || "–" : tr("not_connected"),
+    student.step ? tr("step_of", { step: student.step[0], of: student.step[1] }) : "",
+    known(student.hottest_c) ? tr("hottest", { temperature: student.hottest_c.toFixed(1) }) : "",
+    student.paused ? tr("paused") : "",
+    student.incidents > 0 ? `⚠ ${count(student.incidents, "incident")}: ${student.gravest ?? ""}` : "",
   ];
   for (const line of lines.filter(Boolean)) button.append(make("span", line));
   button.onclick = () => open(student.student);
@@ -38,7 +38,7 @@ function showClass(students, choices) {
 
 function showName() {
   const student = page.students.find((student) => student.student === page.opened);
-  if (student) write($("name"), student.name + (student.here ? "" : " (not connected)"));
+  if (student) write($("name"), student.name + (student.here ? "" : ` (${tr("not_connected")})`));
   if (student && !student.here && page.over === page.opened) showSummary();
 }
 
@@ -75,7 +75,7 @@ const asked = new Map();   // by the page's number: words, and what follows
 function orderAll(command, words, then = () => {}) {
   echoes += 1;
   if (!say({ say: "order-all", echo: echoes, command })) {
-    return write($("all-said"), `${words}: not sent, there is no connection.`);
+    return write($("all-said"), tr("not_sent", { words }));
   }
   asked.set(echoes, { words, then });
   write($("all-said"), `${words} …`);
@@ -85,13 +85,14 @@ function orderedAll(echo, given, refused) {
   const order = asked.get(echo);
   if (!order) return;
   asked.delete(echo);
-  const count = (number) => `${number} student${number === 1 ? "" : "s"}`;
-  write($("all-said"), `${order.words}: sent to ${count(given)}${refused ? `, refused by ${count(refused)}` : ""}.`);
+  const students = count(given, "student");
+  const { words } = order;
+  write($("all-said"), refused ? tr("sent_refused", { words, students, refused: count(refused, "student") }) : tr("sent", { words, students }));
   if (given > 0) order.then();
 }
 
 function loseAsked() {
-  for (const { words } of asked.values()) write($("all-said"), `${words}: the connection was lost; see below whether it was done.`);
+  for (const { words } of asked.values()) write($("all-said"), words + tr("lost"));
   asked.clear();
 }
 
@@ -108,17 +109,17 @@ function showAll(students, choices) {
     return option;
   }));
 }
-$("all-pause").onclick = () => orderAll({ do: "pause", on: true }, "Pause");
-$("all-go").onclick = () => orderAll({ do: "pause", on: false }, "Go on");
+$("all-pause").onclick = () => orderAll({ do: "pause", on: true }, tr("pause"));
+$("all-go").onclick = () => orderAll({ do: "pause", on: false }, tr("go_on"));
 $("all-scene").onsubmit = (event) => {
   event.preventDefault();
   const choice = Number($("all-choice").value);
   const words = $("all-choice").selectedOptions[0].textContent;
-  askFirst(words, "What students have done in their attempts is lost.", () => orderAll({ do: "scene", choice }, words));
+  askFirst(words, tr("all_lose"), () => orderAll({ do: "scene", choice }, words));
 };
 $("all-send").onsubmit = (event) => {
   event.preventDefault();
   const text = $("all-message").value;
-  orderAll({ do: "message", text }, "Message", () => { if ($("all-message").value === text) $("all-message").value = ""; });
+  orderAll({ do: "message", text }, tr("message"), () => { if ($("all-message").value === text) $("all-message").value = ""; });
 };
-$("all-unsay").onclick = () => orderAll({ do: "message", text: "" }, "Message taken away");
+$("all-unsay").onclick = () => orderAll({ do: "message", text: "" }, tr("taken_away"));

@@ -7,7 +7,7 @@ function order(command, words, control, then = () => {}) {
   if (page.opened === null) return;
   echoes += 1;
   if (!say({ say: "order", echo: echoes, student: page.opened, command })) {
-    return write($("said"), `${words}: not sent, there is no connection.`);
+    return write($("said"), tr("not_sent", { words }));
   }
   waiting.set(echoes, { control, words, number: null, begins: BEGIN.includes(command.do), ends: command.do === "end", then });
   control.dataset.waits = "";
@@ -32,11 +32,11 @@ function ordered(echo, number) {
 
 function refused(echo, why) {
   if (echo === null) return write($("said"), why[0].toUpperCase() + why.slice(1) + ".");
-  done(echo, `: refused, ${why}.`);
+  done(echo, tr("refused", { why }));
 }
 
 function loseOrders() {
-  for (const echo of [...waiting.keys()]) done(echo, ": the connection was lost; see below whether it was done.");
+  for (const echo of [...waiting.keys()]) done(echo, tr("lost"));
 }
 
 // What brings up a scene from its start, which takes a while, and loses what the student has done in this attempt.
@@ -57,7 +57,7 @@ $("lose-now").onclick = () => {
 function beginScene(command, words, control) {
   const begin = () => order(command, words, control);
   if (!page.state?.worked) return begin();
-  askFirst(words, `The student is at work: attempt ${page.state.attempt} ends, and its flasks are lost.`, begin);
+  askFirst(words, tr("at_work", { attempt: page.state.attempt }), begin);
 }
 
 const KINDS = { correct: "✓ ", incorrect: "✗ ", other: "" };
@@ -80,13 +80,13 @@ const toggle = (id, command, words) => {
     order({ do: command, on }, words[Number(on)], $(id));
   };
 };
-toggle("pause", "pause", ["Go on", "Pause"]);
-toggle("spare", "spare", ["Boiling heard again", "Boiling muted"]);
-$("reset").onclick = () => beginScene({ do: "reset" }, "From the start", $("reset"));
-$("other-order").onclick = () => beginScene({ do: "toggle" }, "The other order", $("other-order"));
+toggle("pause", "pause", [tr("go_on"), tr("pause")]);
+toggle("spare", "spare", [tr("heard"), tr("muted")]);
+$("reset").onclick = () => beginScene({ do: "reset" }, tr("from_start"), $("reset"));
+$("other-order").onclick = () => beginScene({ do: "toggle" }, tr("other_order"), $("other-order"));
 $("speed").onchange = () => {
   const rate = Number($("speed").value);
-  order({ do: "slow-motion", rate }, `Speed ${$("speed").selectedOptions[0].textContent}`, $("speed"));
+  order({ do: "slow-motion", rate }, tr("speed_is", { speed: $("speed").selectedOptions[0].textContent }), $("speed"));
 };
 $("set-k-v").onsubmit = (event) => {
   event.preventDefault();
@@ -97,14 +97,14 @@ $("send").onsubmit = (event) => {
   const text = $("message").value;
   // Until the student's program has it, it can be sent again.
   const sent = () => { if ($("message").value === text) $("message").value = ""; };
-  order({ do: "message", text }, "Message", event.submitter ?? $("message"), sent);
+  order({ do: "message", text }, tr("message"), event.submitter ?? $("message"), sent);
 };
-$("unsay").onclick = () => order({ do: "message", text: "" }, "Message taken away", $("unsay"));
+$("unsay").onclick = () => order({ do: "message", text: "" }, tr("taken_away"), $("unsay"));
 $("end").onclick = () => $("sure").showModal();
 $("end-not").onclick = () => $("sure").close();
 $("end-now").onclick = () => {
   $("sure").close();
-  order({ do: "end" }, "End", $("end"));
+  order({ do: "end" }, tr("end_order"), $("end"));
 };
 
 function showControls(state) {
@@ -112,10 +112,10 @@ function showControls(state) {
   for (const [echo, order] of waiting) {
     if (order.number === null || order.number > state.done) continue;
     order.then();
-    done(echo, order.begins && state.coming ? ": being prepared." : ": done.");
+    done(echo, order.begins && state.coming ? tr("prepared") : tr("done"));
   }
   $("coming").hidden = !state.coming;
-  if (state.coming) write($("coming-scene"), `Being prepared: ${state.coming.scene}. Until then the present scene goes on.`);
+  if (state.coming) write($("coming-scene"), tr("preparing", { scene: state.coming.scene }));
   const asked = state.coming ? state.coming.choice : state.choice;
   [...$("scenes").querySelectorAll("button")].forEach((button, choice) => {
     button.setAttribute("aria-pressed", choice === asked);
@@ -130,8 +130,8 @@ function showControls(state) {
   }
   const boils = known(controls.k_v) && page.is.k_v !== null;
   for (const part of $("set-k-v").querySelectorAll("input, button")) part.disabled = !boils || controls.ended;
-  write($("k-v-now"), boils ? String(Number(controls.k_v.toPrecision(4))) : "–, this scene has none");
-  write($("shown"), controls.message || "nothing");
+  write($("k-v-now"), boils ? String(Number(controls.k_v.toPrecision(4))) : tr("no_boiling"));
+  write($("shown"), controls.message || tr("nothing"));
   for (const part of $("controls").querySelectorAll("button, input, select")) {
     if (!part.closest("#set-k-v")) part.disabled = controls.ended;
   }
@@ -139,7 +139,7 @@ function showControls(state) {
   if (!known(page.is.choices[state.choice]?.counterpart)) $("other-order").disabled = true;
   if (!controls.message) $("unsay").disabled = true;
   if (controls.ended) {
-    write($("said"), "The session is over.");
+    write($("said"), tr("session_over"));
     page.over = page.opened;
     showSummary();
   }
@@ -149,15 +149,14 @@ function showControls(state) {
 function showSummary() {
   const state = page.state;
   if (!state || !$("summary").hidden) return;
-  const count = (number, one) => `${number} ${one}${number === 1 ? "" : "s"}`;
-  const attempts = Math.max(state.attempt, 1);
-  write($("summary-length"), `It lasted ${seconds(state.time_s)} of simulated time, in ${count(attempts, "attempt")}; the last scene was: ${state.scene}.`);
+  const attempts = count(Math.max(state.attempt, 1), "attempt");
+  write($("summary-length"), tr("lasted", { time: seconds(state.time_s), attempts, scene: state.scene }));
   const grave = state.incidents.filter((incident) => incident.grave).length;
-  write($("summary-incidents"), count(state.incidents_so_far, "incident") + (grave ? `, ${grave} of them grave` : "") +
-    (state.incidents_so_far ? "; they are listed below." : "."));
-  write($("summary-recording"), page.is.replays ? "It was a replay, which writes its own report."
-    : state.recording ? `It is recorded on the student's computer in ${state.recording}`
-    : "It was not recorded.");
+  write($("summary-incidents"), count(state.incidents_so_far, "incident") + (grave ? tr("of_grave", { number: grave }) : "") +
+    (state.incidents_so_far ? tr("listed") : "."));
+  write($("summary-recording"), page.is.replays ? tr("was_replay")
+    : state.recording ? tr("recorded", { file: state.recording })
+    : tr("not_recorded"));
   $("summary").hidden = false;
   for (const part of $("controls").querySelectorAll("button, input, select")) part.disabled = true;
   $("summary").scrollIntoView({ block: "nearest" });
@@ -183,10 +182,10 @@ function showIncidents({ attempt, scene, incidents }) {
   const numbers = [...new Set([...incidents.map((one) => one.attempt), attempt])].sort((a, b) => b - a);
   list.replaceChildren(...numbers.flatMap((number) => {
     const those = incidents.filter((one) => one.attempt === number);
-    const title = number === attempt ? `${scene} (now)` : those[0].scene;
+    const title = number === attempt ? tr("scene_now", { scene }) : those[0].scene;
     const items = make("ol");
     entries(items, those, (one) => one.grave ? "grave" : "");
-    return [make("h4", `Attempt ${number}: ${title}`), those.length > 0 ? items : make("p", "None so far.", "small")];
+    return [make("h4", tr("attempt", { number, scene: title })), those.length > 0 ? items : make("p", tr("none_so_far"), "small")];
   }));
 }
 
@@ -194,7 +193,7 @@ function showState(state) {
   page.state = state;
   showControls(state);
   const { step, hints } = state;
-  write($("step"), step ? (step.number > step.of ? `Done: ${step.title}` : `Step ${step.number} of ${step.of}: ${step.title}`) : "This scene has no procedure.");
+  write($("step"), step ? tr(step.number > step.of ? "step_done" : "step_title", step) : tr("no_procedure"));
   $("progress").hidden = !step;
   if (step) Object.assign($("progress"), { max: Math.max(step.of, 1), value: Math.max(step.number - 1, 0) });
   entries($("hints"), hints);

@@ -5,15 +5,15 @@ const DASHES = [[], [8, 4], [2, 3], [10, 3, 2, 3], [4, 4], [14, 4], [1, 5], [6, 
 const MILLILITRES = 1e6;     // of a cubic metre
 
 const plots = [
-  { title: "Temperature, °C", digits: 1, free: true, of: (state) => state.readings.flasks.flatMap((flask) => [
-    [flask.name + ", hottest", flask.hottest_c], [flask.name + ", mean", flask.mean_c]]) },
-  { title: "Superheat, K", solver: true, digits: 1, of: (state) => [["hottest", state.readings.superheat_k]] },
-  { title: "Void fraction, %", solver: true, digits: 1, of: (state) => [["liquid", percent(state.readings.void_fraction)]] },
-  { title: "Spilt, mL", digits: 1, of: (state) => [
-    ["bench", scaled(state.readings.bench_m3, MILLILITRES)], ["floor", scaled(state.readings.floor_m3, MILLILITRES)]] },
-  { title: "Frame time, ms", solver: true, digits: 2, of: (state) => [
-    ["mean", scaled(state.frames.mean_s, 1000)], ["longest", scaled(state.frames.worst_s, 1000)],
-    ["display's period", scaled(state.frames.period_s, 1000)]], note: (state) => `${state.frames.missed} missed` },
+  { title: tr("temperature"), digits: 1, free: true, of: (state) => state.readings.flasks.flatMap((flask) => [
+    [tr("flask_hottest", { flask: flask.name }), flask.hottest_c], [tr("flask_mean", { flask: flask.name }), flask.mean_c]]) },
+  { title: tr("superheat"), solver: true, digits: 1, of: (state) => [[tr("highest"), state.readings.superheat_k]] },
+  { title: tr("void"), solver: true, digits: 1, of: (state) => [[tr("liquid"), percent(state.readings.void_fraction)]] },
+  { title: tr("spilt"), digits: 1, of: (state) => [
+    [tr("bench"), scaled(state.readings.bench_m3, MILLILITRES)], [tr("floor"), scaled(state.readings.floor_m3, MILLILITRES)]] },
+  { title: tr("frame_time"), solver: true, digits: 2, of: (state) => [
+    [tr("mean"), scaled(state.frames.mean_s, 1000)], [tr("longest"), scaled(state.frames.worst_s, 1000)],
+    [tr("period"), scaled(state.frames.period_s, 1000)]], note: (state) => tr("missed", { number: state.frames.missed }) },
 ];
 const scaled = (value, by) => known(value) ? value * by : null;
 const percent = (value) => scaled(value, 100);
@@ -24,11 +24,11 @@ for (const plot of plots) {
   plot.caption = make("figcaption", plot.title);
   plot.canvas = make("canvas");
   plot.canvas.setAttribute("role", "img");
-  plot.canvas.setAttribute("aria-label", plot.title + ": curves of the last minute; the numbers are in the table below");
+  plot.canvas.setAttribute("aria-label", tr("curves", { title: plot.title }));
   plot.keys = make("ul", "", "keys");
   plot.details = make("details");
   plot.table = make("div", "", "table");
-  plot.details.append(make("summary", "As a table"), plot.table);
+  plot.details.append(make("summary", tr("as_table")), plot.table);
   plot.details.ontoggle = () => { dirty = true; };
   figure.append(plot.caption, plot.canvas, plot.keys, plot.details);
   $(plot.solver ? "solver-plots" : "plots").append(figure);
@@ -149,7 +149,7 @@ function drawKeys(plot) {
 function drawTable(plot, now) {
   const table = make("table");
   const head = make("tr");
-  head.append(make("th", "seconds ago"), ...[...plot.curves.keys()].map((name) => make("th", name)));
+  head.append(make("th", tr("seconds_ago")), ...[...plot.curves.keys()].map((name) => make("th", name)));
   table.append(head);
   for (let ago = 0; ago <= WINDOW; ago += 5) {
     const row = make("tr");

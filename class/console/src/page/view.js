@@ -131,7 +131,7 @@ function cannotDecode() {
 // A picture that stands still looks like a student who does.
 function showAge() {
   const age = drawnAt === null ? 0 : Math.floor((performance.now() - drawnAt) / 1000);
-  write($("age"), drawnAt === null ? "" : age < 1 ? "live" : `picture of ${age} s ago`);
+  write($("age"), drawnAt === null ? "" : age < 1 ? tr("live") : tr("age", { age }));
 }
 setInterval(showAge, 250);
 

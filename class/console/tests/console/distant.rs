@@ -12,6 +12,7 @@ fn hub(folder: &std::path::Path, port: u16) -> Hub {
         always_tls: true,
         folder: folder.to_owned(),
         names: Vec::new(),
+        language: "en",
     };
     // The port of a hub that has just ended may not be free at once.
     until("the hub listens", || Hub::start(config.clone()).ok())

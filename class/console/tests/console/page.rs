@@ -8,7 +8,7 @@ use vitriol_tests::browser::Look;
 use vitriol_tests::devtools::Tab;
 
 use crate::proxy::Proxy;
-use crate::student::{COLOUR, FakeStudent, hub};
+use crate::student::{COLOUR, FakeStudent, hub, hub_in};
 
 /// Whether the control with this id has the state of the student's program, `aria-pressed`.
 fn pressed(id: &str, on: bool) -> String {
@@ -283,6 +283,52 @@ fn codes_keyboard_class_and_a_network_that_is_cut() {
     tab.press(&["Enter"]);
     tab.until("document.getElementById('entry-said').textContent.startsWith('This code is wrong')");
     ada.nothing_else();
+}
+
+/// Nothing that the page itself says is English where it is in another language: what stands in it, and what its scripts write on
+/// class, orders, readings and end. What the student's program says is of its own language.
+#[test]
+fn the_page_speaks_the_language_of_its_hub() {
+    let english: serde_json::Value =
+        serde_json::from_str(include_str!("../../src/page/texts/en.json")).unwrap();
+    let english: Vec<&str> = english
+        .as_object()
+        .unwrap()
+        .values()
+        .filter_map(|it| it.as_str())
+        // A single word may also be a word of what the student's program says.
+        .filter(|it| it.contains(' ') && !it.contains('{'))
+        .collect();
+    for (language, end) in [("de", "Die Sitzung ist beendet."), ("zh", "实验已结束。")] {
+        let folder = tempfile::tempdir().unwrap();
+        let hub = hub_in(language, folder.path());
+        let student = FakeStudent::in_hub(&hub, "Ada");
+        let Some(mut tab) = Tab::new() else { return };
+        tab.look([1280, 900], Look::Light);
+        tab.go(&hub.invite().unwrap().address);
+        tab.until("!document.getElementById('student').hidden");
+        assert_eq!(tab.eval("document.documentElement.lang"), language);
+        tab.until("document.querySelectorAll('.keys span').length > 0");
+        tab.eval("document.getElementById('reset').click()");
+        assert_eq!(student.ordered(), Command::Reset {});
+        tab.until("!('waits' in document.getElementById('reset').dataset)");
+        let all = "[document.title, document.body.textContent, \
+                   ...[...document.querySelectorAll('[aria-label]')].map((it) => it.getAttribute('aria-label'))].join('\\n')";
+        // The scripts stand in the body too, and have no text of their own but their table.
+        let script = "document.querySelector('body > script')?.remove()";
+        tab.eval(script);
+        let shown = tab.eval(all);
+        let shown = shown.as_str().unwrap();
+        for text in &english {
+            assert!(!shown.contains(text), "{language}: {text}");
+        }
+        tab.eval("document.getElementById('end-now').click()");
+        assert_eq!(student.ordered(), Command::End {});
+        tab.until(&format!(
+            "document.getElementById('said').textContent === '{end}'"
+        ));
+        assert_eq!(complaints(&mut tab), Vec::<String>::new());
+    }
 }
 
 /// Presses Tab until the control has the focus, and no more often than there are controls.

@@ -23,11 +23,16 @@ pub const COLOUR: [u8; 3] = [200, 60, 40];
 pub const SIZE: [u16; 2] = [320, 180];
 
 pub fn hub(folder: &std::path::Path) -> Hub {
+    hub_in("en", folder)
+}
+
+pub fn hub_in(language: &'static str, folder: &std::path::Path) -> Hub {
     Hub::start(Config {
         listen: ([127, 0, 0, 1], 0).into(),
         always_tls: false,
         folder: folder.to_owned(),
         names: Vec::new(),
+        language,
     })
     .unwrap()
 }
