@@ -112,7 +112,12 @@ impl Trouble for Instructed {
 
 /// A hub on this computer, a browser in it, and a session's end of it.
 fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options)> {
-    let hub = start(SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0), false).unwrap();
+    let hub = start(
+        SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0),
+        false,
+        Language::En,
+    )
+    .unwrap();
     let texts = Texts::english().unwrap();
     let told = student((Some("Ada"), &texts), true);
     let port = hub.student(told.clone()).unwrap().unwrap();
