@@ -282,7 +282,7 @@ impl Report {
                     table { tbody {
                         (row("Substeps", &grouped(self.counters.substeps)))
                         @if self.counters.flasks_broken > 0 {
-                            (row("Flasks that broke", &grouped(self.counters.flasks_broken)))
+                            (row("Vessels that broke", &grouped(self.counters.flasks_broken)))
                         }
                         @if self.counters.solver_changes > 0 {
                             (row("Changes of substeps and iterations", &grouped(self.counters.solver_changes)))

@@ -148,7 +148,7 @@ mod tests {
             said(Skin::LeftHand, false),
             [
                 "Acid at 148 °C on your hand.",
-                "Drops of 0.05 mL, each begun one counted: 3. In all: 0.12 mL of 68 % acid."
+                "Drops of 0.05 mL (part of a drop counts as one): 3. In all: 0.12 mL of 68 % acid."
             ]
         );
         assert_eq!(said(Skin::Face, true)[0], "Acid at 148 °C on your goggles.");
@@ -170,13 +170,13 @@ mod tests {
                 "Less than a drop of 0.05 mL, which counts as a whole one. In all: 0.0004 mL of 68 % acid.",
                 "Weniger als ein Tropfen von 0,05 mL; er zählt als ganzer. Insgesamt: 0,0004 mL Säure von 68 %.",
                 "Menos de una gota de 0,05 mL, que cuenta como entera. En total: 0,0004 mL de ácido al 68 %.",
-                "不到一滴（每滴0.05毫升），按一滴计。总量：0.0004 mL浓度为68%的硫酸。",
+                "不到一滴（每滴0.05 mL），按一滴计。总量：0.0004 mL质量分数为68%的硫酸。",
             ]
         );
         let [one, ..] = said(0.05e-6);
         assert_eq!(
             one,
-            "Drops of 0.05 mL, each begun one counted: 1. In all: 0.050 mL of 68 % acid."
+            "Drops of 0.05 mL (part of a drop counts as one): 1. In all: 0.050 mL of 68 % acid."
         );
     }
 }

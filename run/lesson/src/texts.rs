@@ -485,6 +485,16 @@ mod tests {
         }
     }
 
+    /// 把手 reads as a handle, 没有得满分 as "did not get full points", and 强酸 is a strong acid, not a concentrated one.
+    #[test]
+    fn chinese_has_no_words_that_mislead() {
+        for (key, sentence) in sentences(CHINESE).unwrap() {
+            for wrong in ["把手", "没有得满分", "强酸"] {
+                assert!(!sentence.contains(wrong), "{key}: {sentence}");
+            }
+        }
+    }
+
     /// A scene's author may give a flask the name of a hole.
     #[test]
     fn what_fills_a_hole_is_not_filled_again() {

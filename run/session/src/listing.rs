@@ -272,11 +272,11 @@ mod tests {
         let shown = said(&judge, None);
         let marks = |shown: &Shown| shown.steps.iter().map(|it| it.0).collect::<Vec<_>>();
         use Mark::{Done, Missed, Open, Waiting};
-        // Six of eight fit, with a line that says so.
+        // Six of nine fit, with a line that says so.
         let (first, rest) = (marks(&shown)[0], &marks(&shown)[1..]);
         assert_eq!((first, rest), (Open, &[Waiting; 5][..]));
-        assert!(shown.steps[2].1.starts_with("Pour the acid"));
-        assert_eq!(shown.note.as_deref(), Some("More steps: 2"));
+        assert!(shown.steps[2].1.starts_with("Pour about half"));
+        assert_eq!(shown.note.as_deref(), Some("More steps: 3"));
         assert!(!shown.quiet);
         assert_eq!(
             acts(&shown),
@@ -294,7 +294,7 @@ mod tests {
         // What is done makes room for what is to be done.
         let shown = said(&judge, None);
         assert_eq!(marks(&shown)[..3], [Open, Waiting, Waiting]);
-        assert!(shown.steps[0].1.starts_with("Pour the acid"));
+        assert!(shown.steps[0].1.starts_with("Pour about half"));
         let state = judge.state().steps;
         assert_eq!(state[1].status, Status::Done);
         let listed = listed(judge.lesson(), &judge.state(), Language::En);
@@ -385,7 +385,7 @@ mod tests {
         judge.advance(&Sight::default(), &[]);
         let mut hinted: Option<String> = None;
         let mut order = Vec::new();
-        for t in 0..9 {
+        for t in 0..10 {
             let state = judge.state();
             let id = to_hint(&state, hinted.as_deref()).unwrap().to_owned();
             judge.ask_hint(&id, f64::from(t)).unwrap();
@@ -396,8 +396,8 @@ mod tests {
         let mut all: Vec<String> = ids.collect();
         // What lies nowhere is wiped.
         all.retain(|id| id != "wipe");
-        assert_eq!(order[..7], all);
-        assert_eq!(order[7..], all[..2]);
+        assert_eq!(order[..8], all);
+        assert_eq!(order[8..], all[..2]);
     }
 
     /// Fifty long steps do not fit: those that are still to be done come first.

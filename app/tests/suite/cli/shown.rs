@@ -44,7 +44,7 @@ fn lessons_are_listed_shown_and_checked() {
     fs::write(&file, own).unwrap();
     assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);
     fs::write(&file, own.replace("into = \"target\"", "into = \"vase\"")).unwrap();
-    let parts = &["own.toml", "step[2].condition.poured.into", "target"];
+    let parts = &["own.toml", "step[3].condition.poured.into", "target"];
     refuses(here, &["lesson", "own.toml"], 2, parts);
     let stand_in = ["vr", "--no-console", "--stand-in", "two-flasks", "--lesson"];
     refuses(here, &[&stand_in[..], &["own.toml"]].concat(), 2, parts);

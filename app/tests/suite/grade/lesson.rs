@@ -63,6 +63,11 @@ fn progress(put_down_s: Option<f64>) -> Vec<Progress> {
             id: id("pour"),
             evidence_s: 0.25,
         },
+        Progress::StepDone {
+            t_s: 0.35,
+            id: id("rest"),
+            evidence_s: 0.3,
+        },
         put_down.unwrap_or_else(|| missed("put-down")),
         Progress::RuleBroken {
             t_s: 0.4,
@@ -142,16 +147,16 @@ fn a_class_is_graded_by_its_lesson() {
             line.note
         );
     }
-    // 15 of 15, and half of 25 at the second try: 27 of 70, and as much of 10, 10 and 5 for three rules that were kept.
+    // 25 of 25, and half of 15 at the second try: 32 of 70, and as much of 10, 10 and 5 for three rules that were kept.
     let ada = line(&class, "ada").lesson.as_ref().unwrap();
-    assert_eq!((ada.points, ada.of), (10 + 5 + 12 + 3 + 3 + 1, 100));
+    assert_eq!((ada.points, ada.of), (10 + 5 + 7 + 10 + 4 + 4 + 2, 100));
     assert!(
         ada.text()
             .contains("put-down missed, stir missed, measure missed, concentration missed, wipe missed, clean broken")
     );
-    // 32 of 70, which the rules' points are in proportion to.
+    // 37 of 70, which the rules' points are in proportion to.
     let bob = line(&class, "bob").lesson.as_ref().unwrap();
-    assert_eq!((bob.points, bob.of), (10 + 5 + 12 + 5 + 4 + 4 + 2, 100));
+    assert_eq!((bob.points, bob.of), (10 + 5 + 7 + 10 + 5 + 5 + 5 + 2, 100));
     // The class's other score is as without a lesson.
     assert_eq!(
         line(&class, "ada").points,
@@ -161,13 +166,14 @@ fn a_class_is_graded_by_its_lesson() {
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     let table = table.trim_start_matches('\u{feff}');
     let row = |start: &str| table.lines().find(|it| it.starts_with(start)).unwrap();
-    let columns = "lesson [points],lesson of,step dress,step lift,step pour,step put-down,step stir,step measure,\
-        step concentration,step wipe,rule order,rule cool,rule inside,rule clean,verified,note";
+    let columns = "lesson [points],lesson of,step dress,step lift,step pour,step rest,step put-down,step stir,\
+        step measure,step concentration,step wipe,rule order,rule cool,rule inside,rule clean,verified,note";
     assert!(row("student,").ends_with(columns), "{table}");
-    let cells = ",34,100,done,done,done,missed,missed,missed,missed,missed,kept,kept,kept,broken,,";
+    let cells =
+        ",42,100,done,done,done,done,missed,missed,missed,missed,missed,kept,kept,kept,broken,,";
     assert!(row("ada,").ends_with(cells), "{table}");
     assert!(
-        row("none,").contains(",,,,,,,,,,,,,,,Not graded: made without"),
+        row("none,").contains(",,,,,,,,,,,,,,,,Not graded: made without"),
         "{table}"
     );
     let widths: Vec<usize> = table.lines().map(|it| it.matches(',').count()).collect();
@@ -305,7 +311,7 @@ fn a_replay_judges_a_lesson() {
     let lesson = &report["lesson"][0];
     assert_eq!(
         (&lesson["points"], &lesson["of"]),
-        (&42.into(), &100.into())
+        (&49.into(), &100.into())
     );
     assert_eq!(report["recording"]["same_progress"], true);
     let command = report["command"].as_str().unwrap();
@@ -316,7 +322,7 @@ fn a_replay_judges_a_lesson() {
     let bare = put(folder.path(), "bare.mcap", &recording(&events(1.5)));
     let report = replayed(&bare, &said, &BY).unwrap();
     assert!(report["recording"].get("same_progress").is_none());
-    assert_eq!(report["lesson"][0]["points"], 42);
+    assert_eq!(report["lesson"][0]["points"], 49);
     assert!(
         replayed(&track, &said, &[])
             .unwrap()

@@ -4,6 +4,7 @@
 mod any;
 mod builtin;
 mod conditions;
+mod dilution;
 mod faults;
 mod fits;
 mod keeping;

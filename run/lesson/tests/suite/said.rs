@@ -58,7 +58,7 @@ fn the_wrong_order_is_told_with_its_causes() {
         caps,
         [
             "At most 40 of 100 points: water was poured into acid.",
-            "At most 40 of 100 points: concentrated or hot acid came to bare skin.",
+            "At most 40 of 100 points: concentrated or hot acid got on bare skin.",
         ]
     );
     let bad = said.iter().filter(|it| it.tone == Tone::Bad);
@@ -77,27 +77,30 @@ fn the_wrong_order_is_told_with_its_causes() {
                 "The heat comes faster than the liquid can spread it.",
             ),
             (
-                "Liquid in the beaker with 98 % acid became 134 °C hot.",
-                "Acid and water gave off their heat in the beaker with 98 % acid. \
-                 Such liquid burns skin at once, and a thin glove does not help.",
+                "Liquid in the beaker with 98 % acid reached 134 °C.",
+                "Acid and water gave off heat as they mixed in the beaker with 98 % acid. \
+                 Liquid this hot burns skin at once, and a thin glove does not help.",
             ),
             (
                 "The beaker with 98 % acid boiled over and threw out: 3.4 mL of 71 % acid.",
-                "Acid as strong as this burns skin and blinds eyes: 15 % is enough.",
+                "Acid this concentrated burns skin and can blind: 15 % is enough.",
             ),
             (
                 "On the skin of the right hand: 0.21 mL of 68 % acid.",
-                "The liquid in the beaker with 98 % acid was boiling. Rinse at once, with much water.",
+                "The liquid in the beaker with 98 % acid was boiling. Rinse at once, with plenty of water.",
             ),
             (
                 "On the goggles: 0.047 mL of 68 % acid.",
-                "The liquid in the beaker with 98 % acid was boiling. What was worn there kept it off: take it off, and rinse.",
+                "The liquid in the beaker with 98 % acid was boiling. What was worn there kept it off the skin: rinse it, take it off, and rinse the skin.",
             ),
             (
                 "Spilt on the bench: 2.6 mL of 71 % acid.",
                 "The liquid in the beaker with 98 % acid was boiling. Wipe it up before someone touches it.",
             ),
-            ("The beaker with water struck at 3.8 m/s and broke.", ""),
+            (
+                "The beaker with water hit something at 3.8 m/s and broke.",
+                ""
+            ),
         ]
     );
     // Each danger is named once: at the first incident that has it. In the order of the film, and the pour is not described twice.
@@ -121,7 +124,7 @@ fn layers_that_were_moved_are_a_cause_in_words() {
             };
         }
     }
-    let words = "Acid and water lay on one another in the beaker with 98 % acid. Moving it mixed them, and all of their heat came at once.";
+    let words = "Acid and water lay in layers in the beaker with 98 % acid. Moving it mixed them, and all the heat of mixing came at once.";
     let said = said(&attempt);
     let mut more = said.iter().filter_map(|it| it.more.as_deref());
     assert!(more.any(|it| it.starts_with(words)), "{said:?}");
@@ -224,16 +227,16 @@ fn what_went_well_is_told_too() {
         [
             "Acid was poured into water, the right order: 20 mL of 98 % acid in 6.2 s, at most 4.2 mL/s, from the beaker with 98 % acid into the beaker with water.",
             "Acid and water came together slowly: at most 4.2 mL/s.",
-            "What was mixed became 55 °C at the most.",
+            "The mixture reached at most 55 °C.",
             "Nothing boiled over.",
-            "Nothing came to hands or face.",
-            "No flask was dropped or broken.",
+            "No acid or hot liquid got on hands or face.",
+            "No vessel was dropped or broken.",
         ]
     );
     assert_eq!(
         of(Tone::Plain).collect::<Vec<_>>(),
         [
-            "The hottest drop had 91 °C, in the beaker with water.",
+            "The hottest drop was at 91 °C, in the beaker with water.",
             "At the end the beaker with water holds: 180 mL of 19 % acid, at 55 °C.",
         ]
     );
@@ -384,8 +387,8 @@ fn hot_liquid_on_skin_says_how_long_it_takes() {
     assert_eq!(
         bad.more.as_deref(),
         Some(
-            "It happened while the beaker with 98 % acid was poured from. Acid as strong as this irritates skin and eyes. \
-             Skin in such liquid is burnt through after 6.0 s. Rinse at once, with much water."
+            "It happened while liquid was poured from the beaker with 98 % acid. Acid this concentrated irritates skin and eyes. \
+             Liquid this hot burns through skin in 6.0 s. Rinse at once, with plenty of water."
         )
     );
 }

@@ -327,6 +327,33 @@ mod long {
         assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:#?}");
     }
 
+    /// The hands of its own track, over water alone: acid that is poured so slowly needs more particles than a test has time for.
+    #[test]
+    fn the_track_of_the_dilution_handles_its_tools() {
+        let mut scene = Scene::builtin("acid-into-water").unwrap();
+        scene.liquids.remove(0);
+        for feature in [Feature::Evaporation, Feature::Losses, Feature::Segregation] {
+            (scene, _) = scene.without(feature);
+        }
+        scene.scale.spacing = 0.009;
+        scene.scale.frame_time = 1.0 / 30.0;
+        scene.solver.substeps = 6;
+        scene.solver.iterations = 1;
+        let free = (in_any_order("dilute"), Mode::Free);
+        let track = builtin::text("dilute").unwrap();
+        let (_, said) = judged_by(free, track, &scene);
+        let done = done(&said);
+        for id in ["dress", "lift", "stir", "put-down", "measure", "wipe"] {
+            assert!(done.contains(&id), "{id}: {done:?}");
+        }
+        // The first portion's stirring, which is over before the second one is poured.
+        let stirred = said.iter().find_map(|it| match it {
+            Progress::StepDone { id, evidence_s, .. } if id == "stir" => Some(*evidence_s),
+            _ => None,
+        });
+        assert!((25.0..30.0).contains(&stirred.unwrap()), "{stirred:?}");
+    }
+
     /// Who keeps the glove on rinses no hand, however much water comes.
     #[test]
     fn a_glove_that_stays_on_is_missed() {
