@@ -168,7 +168,7 @@ mod tests {
             said(0.41e-9),
             [
                 "Less than a drop of 0.05 mL, which counts as a whole one. In all: 0.0004 mL of 68 % acid.",
-                "Weniger als ein Tropfen von 0,05 mL; er zählt als ganzer. Insgesamt: 0,0004 mL Säure (68 %).",
+                "Weniger als ein Tropfen von 0,05 mL, gezählt als ein ganzer. Insgesamt: 0,0004 mL Säure (68 %).",
                 "Menos de una gota de 0,05 mL, que cuenta como entera. En total: 0,0004 mL de ácido al 68 %.",
                 "不到一滴（每滴0.05 mL），按一滴计。总量：0.0004 mL质量分数为68%的硫酸。",
             ]

@@ -102,7 +102,7 @@ fn four_faults_are_four_lines() {
     let mut lesson = fs::read_to_string(&file).unwrap();
     let faults = [
         ("\nhint_after_s = 15", "hint_after = 15", "`hint_after_s`"),
-        ("\npoints = 25", "points = \"many\"", "a whole number"),
+        ("\npoints = 15", "points = \"many\"", "a whole number"),
         (
             "\ninto = \"target\"",
             "into = \"vase\"",

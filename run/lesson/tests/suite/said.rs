@@ -402,7 +402,7 @@ fn a_pour_beside_is_told_once() {
     let spilt = |attempt: &Attempt| {
         said(attempt)
             .iter()
-            .filter(|it| it.text.contains("eside all"))
+            .filter(|it| it.text.contains("outside every vessel"))
             .count()
     };
     assert_eq!(spilt(&right), 0, "the bench's incident has it");

@@ -335,7 +335,7 @@ fn why_is_said_in_each_language() {
         [
             "Poured too fast: 7.3 mL/s, where 5.0 mL/s is allowed.",
             "Zu schnell gegossen: 7,3 mL/s; erlaubt sind höchstens 5,0 mL/s.",
-            "Vertido demasiado rápido: 7,3 mL/s; se permite 5,0 mL/s.",
+            "Vertido demasiado rápido: 7,3 mL/s; se permite hasta 5,0 mL/s.",
             "倒得太快：7.3 mL/s，最多允许5.0 mL/s。",
         ]
     );
