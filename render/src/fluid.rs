@@ -264,6 +264,6 @@ fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {
 /// Sixteen bytes of zero, bound in place of buffers that a frame does not have.
 pub(crate) fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, "nothing", 16)?;
-    gpu.write(&buffer, &[0_u32; 4])?;
+    gpu.write_ahead(&buffer, &[0_u32; 4])?;
     Ok(buffer)
 }

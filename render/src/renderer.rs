@@ -57,7 +57,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer of an empty scene, with shaders from `library`.
+    /// A renderer of an empty scene, with shaders from `library`. Does not wait for the device: it may record to the main queue at once,
+    /// and to another after [`Renderer::set_scene`].
     ///
     /// # Errors
     /// [`RenderError::ViewCount`], [`RenderError::Lanes`]; [`RenderError::Gpu`] where the device
@@ -84,7 +85,7 @@ impl Renderer {
             gpu: gpu.clone(),
             desc: *desc,
             pipelines: Pipelines::new(gpu, library, desc.foveated)?,
-            scene: Scene::new(gpu, &SceneDesc::default())?,
+            scene: Scene::new(gpu, &SceneDesc::default())?.0,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
                 Some(liquid) => Some(Fluid::new(gpu, library, liquid, extent, views, lanes)?),
@@ -149,12 +150,14 @@ impl Renderer {
         Ok(())
     }
 
-    /// Replaces the scene: builds and uploads its outlines, and waits for the upload.
+    /// Replaces the scene: builds and uploads its outlines, and waits for that and for what was uploaded before.
     ///
     /// # Errors
     /// [`RenderError::Gpu`] out of memory or on device loss.
     pub fn set_scene(&mut self, desc: &SceneDesc) -> Result<(), RenderError> {
-        self.scene = Scene::new(&self.gpu, desc)?;
+        let (scene, uploaded) = Scene::new(&self.gpu, desc)?;
+        uploaded.wait()?;
+        self.scene = scene;
         Ok(())
     }
 

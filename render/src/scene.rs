@@ -1,7 +1,7 @@
 //! Vessels and furniture of a picture, and their outlines on the device.
 
 use glam::{Affine3A, Vec3};
-use vitriol_gpu::{Buffer, Gpu};
+use vitriol_gpu::{Buffer, Gpu, Ticket};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
@@ -205,8 +205,8 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// Uploads the outlines and waits for it; a scene is set once.
-    pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<Self, RenderError> {
+    /// Uploads the outlines, which are there with the ticket.
+    pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<(Self, Ticket), RenderError> {
         let (given, most) = (desc.vessels.len(), MOST_VESSELS);
         if given > most {
             return Err(RenderError::TooManyVessels { given, most });
@@ -233,8 +233,8 @@ impl Scene {
         // A buffer has at least one row.
         add(vec![[0.0; 4]]);
         let outlines = Buffer::storage(gpu, "outlines", size_of_val(&table[..]) as u64)?;
-        gpu.write(&outlines, &table)?;
-        Ok(Self {
+        let uploaded = gpu.write_ahead(&outlines, &table)?;
+        let scene = Self {
             vessels,
             outlines,
             table: desc.table,
@@ -242,6 +242,7 @@ impl Scene {
             room: desc.room,
             light: desc.light,
             furnished: desc.furnished,
-        })
+        };
+        Ok((scene, uploaded))
     }
 }

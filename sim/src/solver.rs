@@ -62,7 +62,7 @@ use pipelines::{Constants, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::SteamPasses;
 use vessels::Vessels;
-use vitriol_gpu::{Buffer, Gpu};
+use vitriol_gpu::{Buffer, Gpu, QueueKind};
 use vitriol_shaders::Library;
 
 /// The particles of a scene on a device, and the passes that move them.
@@ -102,8 +102,11 @@ impl Solver {
             .unwrap_or_else(|| lanes::of_particles(gpu, count));
         let list_lanes = spec.lanes.unwrap_or_else(|| lanes::of_list(gpu, count));
         let group = lanes::group(gpu, lanes);
-        let vessels = Vessels::new(gpu, spec)?;
-        let buffers = Buffers::new(gpu, spec, count, &grid)?;
+        let mut rec = gpu.recorder(QueueKind::Main)?;
+        let vessels = Vessels::new(gpu, &mut rec, spec)?;
+        let buffers = Buffers::new(gpu, &mut rec, spec, count, &grid)?;
+        // `restore` waits for it, behind it on its queue.
+        gpu.submit(rec)?;
         let constants = Constants::new(spec, count, &grid, [lanes, list_lanes, group]);
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;

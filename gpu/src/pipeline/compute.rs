@@ -77,6 +77,8 @@ impl ComputePipeline {
         let layout = Layout::new(core, vk::PipelineBindPoint::COMPUTE, &[compiled])?;
         let module = Module::new(core, compiled)?;
         let entry = c_string(&compiled.entry);
+        // Traces each; a test checks by it that a scene's second bench needs no more of them.
+        tracing::trace!(target: "vitriol_gpu::compile", shader = compiled.label, "compiles");
         let create = vk::ComputePipelineCreateInfo::default()
             .stage(
                 vk::PipelineShaderStageCreateInfo::default()

@@ -8,7 +8,7 @@ use bytemuck::{AnyBitPattern, NoUninit};
 use super::Recorder;
 use crate::barrier::Scope;
 use crate::submission::{Storage, Submission};
-use crate::{Buffer, Gpu, GpuError, Image, ImageDesc, QueueKind};
+use crate::{Buffer, Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket};
 
 /// A piece of a copy, in bytes; all multiples of 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -240,15 +240,28 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::OutOfRange`], [`GpuError::OutOfMemory`], device loss.
     pub fn write<T: NoUninit>(&self, buffer: &Buffer, data: &[T]) -> Result<(), GpuError> {
+        self.write_ahead(buffer, data)?.wait()
+    }
+
+    /// Writes to the start of a buffer, before all that is submitted to the main queue from now on. Does not wait: behind pictures a wait
+    /// takes as long as they do. What goes to another queue has to come after the ticket.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfRange`], [`GpuError::OutOfMemory`], device loss.
+    pub fn write_ahead<T: NoUninit>(
+        &self,
+        buffer: &Buffer,
+        data: &[T],
+    ) -> Result<Ticket, GpuError> {
         let mut rec = self.recorder(QueueKind::Main)?;
         rec.upload(buffer, data)?;
-        self.submit(rec)?.wait()
+        self.submit(rec)
     }
 }
 
 impl Image {
-    /// An image with undefined contents, brought into the layout in which
-    /// recorders find it.
+    /// An image with undefined contents, brought into the layout in which recorders find it, before all that is submitted to the main
+    /// queue from now on. Does not wait; another queue may use it once the main queue has finished something submitted later.
     ///
     /// # Errors
     /// [`GpuError::ImageUnsupported`] where size, format or usage is not
@@ -258,7 +271,7 @@ impl Image {
         let mut rec = gpu.recorder(QueueKind::Main)?;
         let index = rec.storage.image_index(&image);
         rec.storage.images[index].layout = vk::ImageLayout::UNDEFINED;
-        gpu.submit(rec)?.wait()?;
+        gpu.submit(rec)?;
         Ok(image)
     }
 }

@@ -33,6 +33,24 @@ fn a_ticket_orders_the_queues() {
 }
 
 #[test]
+fn what_is_written_ahead_is_there_for_what_comes_next() {
+    let gpu = open();
+    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
+    let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 256).unwrap());
+    let written = gpu.write_ahead(&a, &[3_u32; 64]).unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.pass(&double)
+        .read("source", &a)
+        .write("target_", &b)
+        .invocations(64)
+        .unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    assert!(written.is_done().unwrap());
+    assert_eq!(gpu.read::<u32>(&b).unwrap(), [7; 64]);
+    assert_silent(&gpu);
+}
+
+#[test]
 fn the_async_queue_refuses_raster() {
     let gpu = open();
     let mut rec = gpu.recorder(QueueKind::Async).unwrap();

@@ -68,7 +68,7 @@ impl BubbleCells {
                 flying: Buffer::storage(gpu, "flights with drops", flying)?,
             };
             // Frames without bubbles do not write them.
-            gpu.write(&cells.heads, &vec![0_u32; CELLS + 1])?;
+            gpu.write_ahead(&cells.heads, &vec![0_u32; CELLS + 1])?;
             Ok(cells)
         };
         Ok(Self {

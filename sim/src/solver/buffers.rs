@@ -5,7 +5,6 @@ use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::grid::Grid;
 use super::spec::SolverSpec;
-use super::transfer::write;
 use super::vapour::{COUNTS, PUFFS, dew_places, dew_rows, with_steam};
 use super::vessels::Vessels;
 use super::wall_heat;
@@ -13,7 +12,7 @@ use crate::chemistry::Chemistry;
 use crate::chemistry::dew::AROUND;
 use crate::chemistry::segregation::Lamellae;
 use crate::chemistry::table::SolutionTable;
-use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
 use vitriol_shaders::layout::{Dew, Puff};
 
 /// Threads of the load pass's workgroups.
@@ -324,18 +323,19 @@ fn bytes_of<T: bytemuck::NoUninit>(rows: Option<Vec<T>>) -> Vec<u8> {
 }
 
 impl Buffers {
-    /// The buffers of a scene, with its tables written.
+    /// The buffers of a scene; records the upload of its tables.
     pub(super) fn new(
         gpu: &Gpu,
+        rec: &mut Recorder,
         spec: &SolverSpec<'_>,
         count: u32,
         grid: &Grid,
     ) -> Result<Self, GpuError> {
         let sizes = Sizes::new(spec, count, grid);
         let buffers = Self::sized(gpu, &sizes)?;
-        write(gpu, &buffers.solution, &sizes.solution)?;
-        write(gpu, &buffers.lamellae, &sizes.lamellae)?;
-        write(gpu, &buffers.dew_rows, &sizes.dew_rows)?;
+        rec.upload(&buffers.solution, &sizes.solution)?;
+        rec.upload(&buffers.lamellae, &sizes.lamellae)?;
+        rec.upload(&buffers.dew_rows, &sizes.dew_rows)?;
         Ok(buffers)
     }
 }

@@ -8,7 +8,6 @@ mod seen;
 use super::buffers::Buffers;
 use super::pipelines::{Constants, SolverPass};
 use super::spray::spray_left;
-use super::transfer::write;
 use super::vessels::Vessels;
 use super::{Solver, SolverError};
 use glam::{DVec3, Vec3};
@@ -250,8 +249,10 @@ impl Solver {
     /// [`SolverError::Gpu`] where the device refuses.
     pub fn remember_looks(&self, memory: &LooksMemory) -> Result<(), SolverError> {
         let [_, places, bubbles, _] = &self.looks.own;
-        write(&self.gpu, places, &memory.places)?;
-        write(&self.gpu, bubbles, &memory.bubbles)?;
+        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        rec.upload(places, &memory.places)?;
+        rec.upload(bubbles, &memory.bubbles)?;
+        self.gpu.submit(rec)?.wait()?;
         self.looks
             .is_first
             .store(memory.is_first, Ordering::Relaxed);

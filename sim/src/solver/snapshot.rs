@@ -2,7 +2,7 @@
 //! hashed.
 
 use super::buffers::Buffers;
-use super::transfer::{read, write};
+use super::transfer::read;
 use super::{Counters, Solver, SolverError, SolverState};
 use bytemuck::Pod;
 use std::sync::atomic::Ordering;
@@ -207,7 +207,7 @@ impl Solver {
     }
 
     /// Puts a state on this device, a new one perhaps; the frames that follow have
-    /// the bits that they would have had without the interruption.
+    /// the bits that they would have had without the interruption. Waits for the device once.
     ///
     /// # Errors
     /// [`SolverError::OtherState`], or [`SolverError::Gpu`].
@@ -234,17 +234,20 @@ impl Solver {
         self.listed.store(any, Ordering::Relaxed);
         self.looks.begin_anew();
         let (b, gpu) = (&self.buffers, &self.gpu);
+        // All in one submission: beside a session's frames each wait takes as long as the pictures under way.
+        let mut rec = gpu.recorder(QueueKind::Main)?;
         for array in &ARRAYS {
             let (buffer, bytes) = ((array.buffer)(b), (array.get)(state).bytes());
             match array.second {
-                SecondHalf::None => write(gpu, buffer, bytes)?,
-                SecondHalf::Same => write(gpu, buffer, &[bytes, bytes].concat())?,
-                SecondHalf::Zeros => write(gpu, buffer, &[bytes, &vec![0; bytes.len()]].concat())?,
+                SecondHalf::None => rec.upload(buffer, bytes)?,
+                SecondHalf::Same => rec.upload(buffer, &[bytes, bytes].concat())?,
+                SecondHalf::Zeros => {
+                    rec.upload(buffer, &[bytes, &vec![0; bytes.len()]].concat())?
+                }
             }
         }
-        write(gpu, &b.list, &state.list)?;
-        write(gpu, &b.long_lists, &long_lists)?;
-        let mut rec = gpu.recorder(QueueKind::Main)?;
+        rec.upload(&b.list, &state.list)?;
+        rec.upload(&b.long_lists, &long_lists)?;
         rec.fill(&b.cell_counts, 0)?;
         rec.fill(&b.block_counts, 0)?;
         if self.pipelines.bubbles.is_some() {

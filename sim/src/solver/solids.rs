@@ -5,7 +5,7 @@ use super::transfer::upload;
 use crate::flask::particles::BoundaryParticle;
 use crate::kernel::Kernel;
 use glam::{DVec3, U64Vec3};
-use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
 use vitriol_shaders::layout::SolidCells;
 
 /// The buffers that `common/glass/solids.wgsl` reads; empty where the boundary is of maps.
@@ -16,10 +16,11 @@ pub struct Solids {
 }
 
 impl Solids {
-    /// Sorts and uploads the solids of each flask for a kernel of support
-    /// radius `support`, metres.
+    /// Sorts the solids of each flask for a kernel of support radius `support`, metres, and
+    /// records their upload.
     pub fn new(
         gpu: &Gpu,
+        rec: &mut Recorder,
         flasks: &[Vec<BoundaryParticle>],
         support: f64,
     ) -> Result<Self, GpuError> {
@@ -49,9 +50,9 @@ impl Solids {
             }));
         }
         Ok(Self {
-            cells: upload(gpu, "solid_cells", &cells)?,
-            starts: upload(gpu, "solid_starts", &starts)?,
-            solids: upload(gpu, "solids", &all)?,
+            cells: upload(gpu, rec, "solid_cells", &cells)?,
+            starts: upload(gpu, rec, "solid_starts", &starts)?,
+            solids: upload(gpu, rec, "solids", &all)?,
         })
     }
 }

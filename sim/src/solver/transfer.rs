@@ -1,9 +1,9 @@
-//! Whole buffers from the host and back; each waits for the device.
+//! Whole buffers from the host and back.
 
 use super::error::SolverError;
-use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
 
-/// The first `count` elements; buffers are a few bytes longer where a scene is empty.
+/// The first `count` elements; buffers are a few bytes longer where a scene is empty. Waits for the device.
 pub(super) fn read<T: bytemuck::AnyBitPattern>(
     gpu: &Gpu,
     buffer: &Buffer,
@@ -14,24 +14,14 @@ pub(super) fn read<T: bytemuck::AnyBitPattern>(
     Ok(all)
 }
 
-pub(super) fn write<T: bytemuck::NoUninit>(
-    gpu: &Gpu,
-    buffer: &Buffer,
-    data: &[T],
-) -> Result<(), GpuError> {
-    if !data.is_empty() {
-        gpu.write(buffer, data)?;
-    }
-    Ok(())
-}
-
-/// A new buffer that holds `data`.
+/// A new buffer that holds `data` from this place of `rec` on.
 pub(super) fn upload<T: bytemuck::NoUninit>(
     gpu: &Gpu,
+    rec: &mut Recorder,
     label: &str,
     data: &[T],
 ) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, label, size_of_val(data) as u64)?;
-    write(gpu, &buffer, data)?;
+    rec.upload(&buffer, data)?;
     Ok(buffer)
 }

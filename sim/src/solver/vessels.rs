@@ -6,7 +6,7 @@ use super::transfer::upload;
 use super::wall_heat;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
-use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
 use vitriol_shaders::layout;
 
 /// Entries of the half-space table over one support radius; its error is
@@ -26,8 +26,8 @@ pub struct Vessels {
 
 impl Vessels {
     /// Tabulates radii, volume maps and the tables that the scene's forces read, and
-    /// uploads them.
-    pub fn new(gpu: &Gpu, spec: &SolverSpec<'_>) -> Result<Self, GpuError> {
+    /// records their upload.
+    pub fn new(gpu: &Gpu, rec: &mut Recorder, spec: &SolverSpec<'_>) -> Result<Self, GpuError> {
         let support = spec.parameters.support_radius;
         let mut flasks = Vec::new();
         let mut radii: Vec<f32> = Vec::new();
@@ -67,13 +67,13 @@ impl Vessels {
         }
         let plane = PlaneMap::new(support).table(PLANE_ENTRIES);
         Ok(Self {
-            flasks: upload(gpu, "flasks", &flasks)?,
-            radii: upload(gpu, "radii", &radii)?,
-            maps: upload(gpu, "maps", &maps)?,
-            distances: upload(gpu, "distances", &distances)?,
-            glass_rings: upload(gpu, "glass_rings", &wall_heat::constants(spec))?,
-            plane: upload(gpu, "plane", &plane)?,
-            solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,
+            flasks: upload(gpu, rec, "flasks", &flasks)?,
+            radii: upload(gpu, rec, "radii", &radii)?,
+            maps: upload(gpu, rec, "maps", &maps)?,
+            distances: upload(gpu, rec, "distances", &distances)?,
+            glass_rings: upload(gpu, rec, "glass_rings", &wall_heat::constants(spec))?,
+            plane: upload(gpu, rec, "plane", &plane)?,
+            solids: Solids::new(gpu, rec, spec.solids.unwrap_or_default(), support)?,
         })
     }
 }

@@ -55,12 +55,19 @@ thread_local! {
     static THEN: RefCell<Option<Then>> = const { RefCell::new(None) };
 }
 
+/// Does that, and counts what is logged on this thread meanwhile.
+pub fn hearing<T>(f: impl FnOnce() -> T) -> T {
+    // Of what came before on this thread.
+    HEARD.take();
+    tracing::subscriber::with_default(Ear, f)
+}
+
 /// Does that once, in the middle of what the session does when it next logs a line with that target on this thread.
 pub fn when_heard(target: &'static str, then: impl FnOnce() + 'static) {
     THEN.set(Some((target, Box::new(then))));
 }
 
-/// How many lines with that target the sessions of this thread have logged.
+/// How many lines with that target were logged on this thread while [`hearing`] did the last thing.
 pub fn heard(target: &str) -> u64 {
     HEARD.with_borrow(|heard| heard.get(target).copied().unwrap_or(0))
 }
@@ -354,10 +361,8 @@ pub fn session_with(
     decisions: Receiver<Decision>,
 ) -> (SessionOutcome, Track) {
     let file = options.record.clone().unwrap();
-    // Of a session before it on this thread.
-    HEARD.take();
     let session = Session::new(headset, options, decisions).unwrap();
-    let outcome = tracing::subscriber::with_default(Ear, || session.run(headset)).unwrap();
+    let outcome = hearing(|| session.run(headset)).unwrap();
     let recorded = outcome.recorded.as_ref().unwrap();
     assert_eq!((recorded.steps, recorded.unwritten), (outcome.steps, 0));
     let track = Track::open(&file).unwrap();

@@ -4,16 +4,19 @@
 
 use std::sync::mpsc::{Sender, channel};
 
-use crate::vr::common::{Calm, Trouble, Worn, heard, nobody, pour, session};
+use crate::vr::common::{Calm, Trouble, Worn, heard, hearing, nobody, options, pour, session};
 use glam::{Quat, Vec2, Vec3};
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::SceneDesc;
 use vitriol_run::Action;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
+use vitriol_session::foveating::Foveating;
 use vitriol_session::panel::{PANEL, WIDTH, scene_from_panel};
+use vitriol_session::picture::Eyes;
 use vitriol_session::stand_in::StandIn;
-use vitriol_session::workbench::TAKEN_UP;
+use vitriol_session::workbench::{TAKEN_UP, Workbench};
+use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_tests::gpu;
 use vitriol_xr::{Headset, HeadsetError, Inset, Pose, Shown, Side, Targets, Turn, View};
@@ -149,6 +152,30 @@ fn nothing_waits_for_the_device_within_a_frame() {
     let waited = waits() - headset.within;
     assert!(waited > 50, "{waited} waits were heard of");
     assert_eq!(headset.within, 0);
+}
+
+/// A bench is built beside the frames of the one before it, and each of its waits takes as long as the pictures under way: on a software
+/// driver a second and more. So it waits once for its world and once for its picture, and its like has no pipeline to compile.
+#[test]
+fn a_bench_waits_twice_for_the_device_and_its_like_compiles_nothing() {
+    // Other tests hold pipelines of the process's device.
+    let gpu = gpu::another_device(|_| {});
+    let folder = tempfile::tempdir().unwrap();
+    let plan = options(folder.path()).plan;
+    let library = Library::embedded();
+    let eyes = Eyes {
+        extent: [64, 64],
+        inset: None,
+        hidden: [Vec::new(), Vec::new()],
+        foveating: Some(Foveating::Off),
+    };
+    let build = || hearing(|| Workbench::new(&gpu, &library, &plan, &eyes).unwrap());
+    let compiled = || heard("vitriol_gpu::compile");
+    let _first = build();
+    assert_eq!(waits(), 2);
+    assert!(compiled() > 20, "{} were heard of", compiled());
+    let _second = build();
+    assert_eq!((waits(), compiled()), (2, 0));
 }
 
 #[test]
