@@ -98,7 +98,10 @@ pub fn grade(
         }
         make_folder(out)?;
     }
-    let words = Words::of(args.language)?;
+    let mut words = Words::of(args.language)?;
+    for (lesson, _) in expected.iter().filter_map(|it| it.lesson.as_ref()) {
+        words.texts.learn(lesson);
+    }
     let grading = Grading {
         args,
         expected: &expected,

@@ -229,7 +229,7 @@ fn replay(
     let judged = lesson.as_ref();
     let rubric = judged.map(|(lesson, _)| lesson.rubric());
     let rubric = rubric.unwrap_or_default();
-    let retold = lesson.map(|(lesson, mode)| Verdict::retold(&lesson, mode, &outcome.progress));
+    let retold = judged.map(|(lesson, mode)| Verdict::retold(lesson, *mode, &outcome.progress));
     let recording = recorded.map(|recorded| recorded.against((&name_of_start, &scenes), &outcome));
     let mut report = assemble(
         (args, name, chosen),
@@ -242,7 +242,10 @@ fn replay(
     )?;
     report.recording = recording;
     report.lesson = retold.unwrap_or_default();
-    let texts = Texts::of(args.language).other()?;
+    let mut texts = Texts::of(args.language).other()?;
+    if let Some((lesson, _)) = judged {
+        texts.learn(lesson);
+    }
     report.judge(&rubric, &texts);
     for (name, picture) in POSTERS.iter().zip(&posters) {
         let file = output::png(picture, FILM_SIZE, ColorType::Rgba)?;

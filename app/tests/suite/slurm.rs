@@ -130,7 +130,7 @@ mod long {
                 _ => honest.clone(),
             };
             let parameters = &mut track.metadata.parameters;
-            parameters.insert("student".into(), student.to_string());
+            parameters.insert("copy".into(), student.to_string());
             let file = here.join(format!("class/student-{student:02}.mcap"));
             save(&track, &file, Existing::Refuse).unwrap();
         }

@@ -83,7 +83,7 @@ impl Default for Rubric {
             nothing_thrown_out: Ramp::new(15, 0.0, 1e-6),
             // 5 mL: a tea spoon.
             nothing_spilt: Ramp::new(10, 0.0, 5e-6),
-            // One drop of strong acid burns.
+            // One drop of concentrated acid burns.
             nothing_on_skin: Ramp::new(15, 0.0, 1.0),
             glass_whole: Ramp::new(5, 0.0, 1.0),
             harmless_share: 0.25,

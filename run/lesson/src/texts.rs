@@ -7,7 +7,7 @@ use serde::Deserialize;
 use vitriol_sim::flask::glassware::Vessel;
 
 use crate::language::Language;
-use crate::procedure::LessonTexts;
+use crate::procedure::{Lesson, LessonTexts};
 
 const ENGLISH: &str = concat!(
     include_str!("../texts/en.toml"),
@@ -245,12 +245,18 @@ impl Texts {
         self.scene.get(name).map_or(name, String::as_str)
     }
 
-    /// Title of the lesson of that name; of one that is not built in its name.
+    /// Title of the lesson of that name; of one that is neither built in nor [learnt](Self::learn) its name.
     pub fn lesson<'a>(&'a self, name: &'a str) -> &'a str {
         self.lesson.get(name).map_or(name, |texts| &texts.title)
     }
 
-    /// What the step or rule `id` of that lesson asks for; of a lesson that is not built in the id.
+    /// Takes in the texts of `lesson`, so that what is written of one of your own has its title and sentences.
+    pub fn learn(&mut self, lesson: &Lesson) {
+        let own = lesson.texts(self.language).clone();
+        self.lesson.insert(lesson.name.clone(), own);
+    }
+
+    /// What the step or rule `id` of that lesson asks for; of a lesson that is neither built in nor [learnt](Self::learn) the id.
     pub fn asked<'a>(&'a self, lesson: &str, id: &'a str) -> &'a str {
         let texts = self.lesson.get(lesson);
         let step = texts.and_then(|texts| Some(&texts.step.get(id)?.text));

@@ -41,7 +41,10 @@ function forgetCurves() {
   dirty = true;
 }
 
+let plotted = null;   // scene of the curves: another one has other vessels
 function addPoints(state) {
+  if (state.scene !== plotted) forgetCurves();
+  plotted = state.scene;
   const now = performance.now() / 1000;
   for (const plot of plots) {
     for (const [name, value] of plot.of(state)) {
@@ -101,7 +104,7 @@ function drawPlot(plot, now) {
   pen.textBaseline = "alphabetic";
   for (const ago of [60, 40, 20, 0]) {
     pen.textAlign = ago === 60 ? "left" : ago === 0 ? "right" : "center";
-    pen.fillText(ago ? `−${ago} s` : "now", x(now - ago), height - 4);
+    pen.fillText(ago ? `−${ago} s` : tr("now"), x(now - ago), height - 4);
   }
   [...plot.curves.values()].forEach((points, at) => {
     stroke(pen, style, at);

@@ -59,6 +59,22 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     );
 }
 
+/// What is written of a lesson of one's own has its title and sentences, in the language of the texts or the only one that it has.
+#[test]
+fn a_lesson_of_ones_own_is_told_in_its_words() {
+    let text = Lesson::template("own-1", "dilute", Language::De).unwrap();
+    let own = Lesson::parse(&text, "own-1.toml").unwrap();
+    let words = own.texts(Language::De);
+    for language in [Language::De, Language::Es] {
+        let mut texts = Texts::of(language).unwrap();
+        assert_eq!(texts.lesson("own-1"), "own-1");
+        texts.learn(&own);
+        assert_eq!(texts.lesson("own-1"), words.title);
+        assert_eq!(texts.asked("own-1", "pour"), words.step["pour"].text);
+        assert_eq!(texts.asked("own-1", "cool"), words.rule["cool"]);
+    }
+}
+
 /// Each lesson in each language is a file to begin with: it fits its scene as it is, has that language alone, and explains each of its keys.
 #[test]
 fn a_new_lesson_is_good_and_explained() {
