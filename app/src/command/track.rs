@@ -9,6 +9,7 @@ use vitriol_run::track::BROKEN_OFF;
 use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Failure, Format, emit, in_a_line, track};
 use vitriol_sim::scene::Scene;
+use vitriol_xr::files;
 use vitriol_xr::track::{self as tracks, Existing, builtin};
 
 use crate::cli::TrackArgs;
@@ -141,6 +142,15 @@ fn describe(info: &TrackInfo) -> String {
         let scenes: Vec<_> = info.scenes.iter().map(|name| in_a_line(name)).collect();
         let _ = writeln!(text, "carries the scenes {}", scenes.join(", "));
     }
+    let builtin = Scene::builtin_names();
+    if !builtin.contains(&info.scene.as_str()) && !info.scenes.contains(&info.scene) {
+        let suggested = files::suggested(&info.scene, &builtin);
+        let scene = in_a_line(&info.scene);
+        let _ = writeln!(
+            text,
+            "The scene {scene} is neither built in nor in the track: {suggested}; `vitriol replay --scene` names a file."
+        );
+    }
     let _ = match info.missing_steps {
         0 => Ok(()),
         1 => writeln!(text, "A step is missing."),
@@ -163,5 +173,21 @@ mod tests {
             let scene = look_into(name).unwrap().scene;
             assert!(Scene::builtin_names().contains(&scene.as_str()), "{name}");
         }
+    }
+
+    #[test]
+    fn a_scene_that_nobody_has_is_told() {
+        let mut info = look_into("two-flasks").unwrap();
+        assert!(!describe(&info).contains("neither"));
+        info.scene = "two-flask".to_owned();
+        let said = describe(&info);
+        assert!(
+            said.contains(
+                "two-flask is neither built in nor in the track: did you mean two-flasks?"
+            ),
+            "{said}"
+        );
+        info.scenes = vec![info.scene.clone()];
+        assert!(!describe(&info).contains("neither"));
     }
 }

@@ -2,6 +2,8 @@
 
 use super::error::Problem;
 use super::feature::Feature;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 use std::ops::RangeInclusive;
 
 /// A number of a table: its name, the feature that needs it, its value, and its range.
@@ -40,4 +42,17 @@ pub(super) fn check_fields(table: &str, fields: &[Field]) -> Result<(), Problem>
         }
     }
     Ok(())
+}
+
+/// Reads exactly `N` numbers. An array of more, such as one in which 0,5 stands for 0.5, would lose its last ones without a word.
+pub(super) fn exactly<'de, D: Deserializer<'de>, const N: usize>(
+    from: D,
+) -> Result<[f64; N], D::Error> {
+    let numbers = Vec::<f64>::deserialize(from)?;
+    let count = numbers.len();
+    numbers.try_into().map_err(|_| {
+        D::Error::custom(format!(
+            "has {count} numbers; write {N}, each with a decimal point and no comma in it"
+        ))
+    })
 }

@@ -7,7 +7,7 @@ use super::chemistry::{
 use super::contents::{Flask, Liquid};
 use super::error::Problem;
 use super::feature::Feature;
-use super::fields::{TURN, TURN_IN_WORDS, require, within};
+use super::fields::{TURN, TURN_IN_WORDS, exactly, require, within};
 use super::preset::Preset;
 use super::settings::{
     Floor, HEAVIEST, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop,
@@ -32,7 +32,7 @@ pub(super) struct SceneFile {
     pub name: String,
     pub description: String,
     /// Where the scene is in the stage, metres of the scene.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exactly")]
     pub origin: [f64; 3],
     pub scale: Scale,
     pub solver: SolverSettings,
@@ -53,6 +53,10 @@ pub(super) struct SceneFile {
     pub preset: BTreeMap<Preset, PresetOverrides>,
 }
 
+/// Two numbers.
+#[derive(Clone, Copy, Deserialize)]
+struct Point(#[serde(deserialize_with = "exactly")] [f64; 2]);
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FlaskEntry {
@@ -62,15 +66,16 @@ pub(super) struct FlaskEntry {
     /// A name of [`glass`], made larger by 1/length_scale.
     profile: Option<String>,
     /// Or its own (height, radius) points, metres of the scene.
-    points: Option<Vec<[f64; 2]>>,
+    points: Option<Vec<Point>>,
     /// Wall of own points, metres of the scene.
     wall: Option<f64>,
     /// Density of the wall of own points, kg/m³.
     density: Option<f64>,
+    #[serde(deserialize_with = "exactly")]
     position: [f64; 3],
     /// Yaw about y, pitch about x, roll about z, degrees, in this order from
     /// the stage to the flask.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exactly")]
     rotation: [f64; 3],
     fixed: bool,
     /// Contact angle of its glass, degrees.
@@ -105,12 +110,13 @@ impl FlaskEntry {
         let (profile, density, vessel) = match (&self.profile, &self.points) {
             (Some(name), None) => named(name, &self, index, scale)?,
             (None, Some(points)) => {
+                let points: Vec<_> = points.iter().map(|Point(at)| *at).collect();
                 let Some(wall) = self.wall else {
                     let problem = "missing; own points need the wall's thickness (metres)";
                     return Err(Problem::new(field("wall"), problem));
                 };
                 let place = if wall > 0.0 { "points" } else { "wall" };
-                let profile = Profile::new(points, wall)
+                let profile = Profile::new(&points, wall)
                     .map_err(|error| Problem::new(field(place), error))?;
                 let density = self.density.unwrap_or(glassware::BOROSILICATE);
                 (profile, density, self.vessel.unwrap_or_default())

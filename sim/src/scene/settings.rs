@@ -2,7 +2,7 @@
 
 use super::error::Problem;
 use super::feature::Feature;
-use super::fields::{Field, Must, check_fields, require, within};
+use super::fields::{Field, Must, check_fields, exactly, require, within};
 use serde::{Deserialize, Serialize};
 
 /// Heaviest that liquid or glass may be, kg/m³: osmium, the heaviest metal, has 22,600.
@@ -147,8 +147,10 @@ pub struct TableTop {
     /// Height of the upper surface, metres.
     pub top: f64,
     /// Centre (x, z), metres.
+    #[serde(deserialize_with = "exactly")]
     pub centre: [f64; 2],
     /// Extent along x and z, metres.
+    #[serde(deserialize_with = "exactly")]
     pub size: [f64; 2],
 }
 

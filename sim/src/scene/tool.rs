@@ -3,7 +3,7 @@
 //! Each is a cylinder to the rigid bodies. Sizes are of real size; a scene that is drawn larger has them larger.
 
 use super::error::Problem;
-use super::fields::{TURN, TURN_IN_WORDS, require, within};
+use super::fields::{TURN, TURN_IN_WORDS, exactly, require, within};
 use super::settings::{Scale, TableTop};
 use crate::pose::Pose;
 use glam::{DQuat, DVec3, EulerRot, Vec3};
@@ -110,6 +110,7 @@ pub fn sash_heights(table: &TableTop, scale: &Scale) -> [f64; 2] {
 pub(super) struct ToolEntry {
     kind: ToolKind,
     /// Middle of the area that it lies on, metres of the scene.
+    #[serde(deserialize_with = "exactly")]
     position: [f64; 3],
     /// Rotation about the vertical, degrees; at 0 a tool that lies on its side has its lower end to the right.
     #[serde(default)]

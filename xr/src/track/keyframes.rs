@@ -42,7 +42,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use super::ease::Ease;
@@ -99,18 +100,33 @@ fn default_rate() -> Spanned<f64> {
     Spanned::new(0..0, 90.0)
 }
 
+/// Three numbers.
+#[derive(Clone, Copy, Deserialize)]
+struct Triple(#[serde(deserialize_with = "exactly")] [f64; 3]);
+
+/// Reads exactly `N` numbers. An array of more, such as one in which 0,5 stands for 0.5, would lose its last ones without a word.
+fn exactly<'de, D: Deserializer<'de>, const N: usize>(from: D) -> Result<[f64; N], D::Error> {
+    let numbers = Vec::<f64>::deserialize(from)?;
+    let count = numbers.len();
+    numbers.try_into().map_err(|_| {
+        D::Error::custom(format!(
+            "has {count} numbers; write {N}, each with a decimal point and no comma in it"
+        ))
+    })
+}
+
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pivot {
-    left: Option<Spanned<[f64; 3]>>,
-    right: Option<Spanned<[f64; 3]>>,
+    left: Option<Spanned<Triple>>,
+    right: Option<Spanned<Triple>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HeadKey {
     t: f64,
-    position: Option<[f64; 3]>,
+    position: Option<Triple>,
     rotation: Option<Rotation>,
     #[serde(default)]
     ease: Ease,
@@ -120,7 +136,7 @@ struct HeadKey {
 #[serde(deny_unknown_fields)]
 struct HandKey {
     t: f64,
-    position: Option<[f64; 3]>,
+    position: Option<Triple>,
     rotation: Option<Rotation>,
     squeeze: Option<f64>,
     trigger: Option<f64>,
@@ -295,11 +311,11 @@ impl Reader<'_> {
         &self,
         who: &str,
         keys: Vec<Spanned<HandKey>>,
-        pivot: Option<Spanned<[f64; 3]>>,
+        pivot: Option<Spanned<Triple>>,
     ) -> Result<KeyPath, TrackError> {
         let pivot = match pivot {
             Some(pivot) => {
-                let (at, point) = (pivot.span().start, pivot.into_inner());
+                let (at, Triple(point)) = (pivot.span().start, pivot.into_inner());
                 self.finite(at, &format!("pivot.{who}"), &point)?;
                 DVec3::from_array(point)
             }
@@ -327,7 +343,7 @@ impl Reader<'_> {
     ) -> Result<Key, TrackError> {
         self.time(at, who, key.t, before.map(|before| before.t), false)?;
         let position = match (key.position, before) {
-            (Some(position), _) => {
+            (Some(Triple(position)), _) => {
                 self.finite(at, &format!("{who}.position"), &position)?;
                 DVec3::from_array(position)
             }

@@ -54,8 +54,9 @@ impl Fit<'_> {
         let most = self.facts.liquid_m3 * ML;
         if ml > most {
             let scene = &self.facts.name;
-            let problem =
-                format!("the scene {scene:?} has {most:.0} mL in all; take less than {ml}");
+            let problem = format!(
+                "the scene {scene:?} has {most:.0} mL in all, and this is {ml}; take {most:.0} at most"
+            );
             self.problems.add(field, problem);
         }
     }

@@ -38,6 +38,13 @@ fn malformed_scenes_name_file_field_and_remedy() {
             &["scale.spacing", "-0.005", "above zero"],
         ),
         ("0.005", "\"wide\"", &["invalid type", "line 6"]),
+        // Decimal commas make more numbers.
+        (
+            "position = [0.0, 0.5, 0.0]",
+            "position = [0.0, 0,5, 0.0]",
+            &["has 4 numbers; write 3", "decimal point"],
+        ),
+        ("[0.08, 0.03]", "[0,8, 0.03]", &["has 3 numbers; write 2"]),
         ("omega = 0.5", "omega = 3.0", &["solver.omega", "below 2"]),
         (
             "substeps = 3",

@@ -205,6 +205,12 @@ fn bad_keyframes_are_refused_with_their_line() {
             "ease = \"quick\"",
             &["line 21", "`quick`", "`smooth`, `linear`, `hold`"],
         ),
+        // A decimal comma makes four numbers.
+        (
+            "[0.5, 1.0, -1.5]",
+            "[0.5, 1,0, -1.5]",
+            &["line 19", "has 4 numbers; write 3", "decimal point"],
+        ),
         ("duration = 2.5\n", "", &["missing field `duration`"]),
         ("t = 2.0\n", "", &["line 23", "missing field `t`"]),
         ("t = 2.0", "t = 2.0.0", &["line 24"]),
