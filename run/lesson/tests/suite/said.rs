@@ -328,7 +328,7 @@ fn who_dilutes_nothing_has_no_points_for_it() {
     let why: Vec<_> = without.left_out.iter().map(|it| it.why.as_str()).collect();
     assert_eq!(
         why,
-        ["The scene has no acid and water to bring together."; 3]
+        ["The scene has no acid and water in separate vessels."; 3]
     );
 }
 
