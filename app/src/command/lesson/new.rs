@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use vitriol_lesson::Lesson;
+use vitriol_lesson::{Lesson, LessonError};
 use vitriol_run::output::{new_file, write_new};
 use vitriol_run::{Blame, Failure, Format, emit};
 use vitriol_xr::files;
@@ -26,12 +26,13 @@ struct Written {
 /// cannot be written.
 pub fn write(args: &NewLessonArgs, format: Format) -> Result<(), Failure> {
     let (name, from) = (&args.name, &args.from);
-    let builtin = Lesson::builtin_names();
-    if !builtin.contains(&from.as_str()) {
-        let known = files::suggested(from, &builtin);
-        return Err(format!("--from {from:?}: no built-in lesson; {known}")).input();
-    }
-    let text = Lesson::template(name, from, args.language).input()?;
+    let text = match Lesson::template(name, from, args.language) {
+        Err(LessonError::NotFound { .. }) => {
+            let known = files::suggested(from, &Lesson::builtin_names());
+            return Err(format!("--from {from:?}: no built-in lesson; {known}")).input();
+        }
+        made => made.input()?,
+    };
     let path = new_file(Path::new(""), &format!("{name}.toml"))?;
     write_new(&path, text.as_bytes())?;
     let written = Written {

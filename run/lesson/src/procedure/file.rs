@@ -82,7 +82,7 @@ pub struct Rule {
     pub points: u32,
 }
 
-/// A lesson, validated except against its scene, for which there is [`Lesson::check`].
+/// A lesson, validated. It is checked against its scene only where [`Lesson::parse_for`] read it with the scene's properties.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
     /// Its name.
@@ -96,8 +96,6 @@ pub struct Lesson {
     /// Its rules, which hold throughout.
     pub rules: Vec<Rule>,
     caps: Caps,
-    file: String,
-    text: String,
     hash: String,
     /// The texts that stand in for a language that is not there: English, or else the first.
     first: (Language, LessonTexts),
@@ -121,13 +119,7 @@ impl Lesson {
     /// # Errors
     /// [`LessonError::NotFound`] for an unknown name. A test rules out the other errors.
     pub fn builtin(name: &str) -> Result<Self, LessonError> {
-        let Some(text) = Self::builtin_text(name) else {
-            return Err(LessonError::NotFound {
-                name: name.to_owned(),
-                known: Self::builtin_names().join(", "),
-            });
-        };
-        Self::parse(text, &format!("{name}.toml"))
+        Self::parse(find(name)?, &format!("{name}.toml"))
     }
 
     /// Parses a lesson from its TOML `text`; `file` is its name in messages. A lesson without texts that has the name of a built-in one
@@ -188,29 +180,11 @@ impl Lesson {
                 steps: raw.steps,
                 rules: raw.rules,
                 caps: raw.caps,
-                file: file.to_owned(),
-                text: text.to_owned(),
                 hash: format!("{:032x}", xxh3_128(text.as_bytes())),
                 first,
                 others: raw.texts,
             }),
             _ => Err(source.into_error()),
-        }
-    }
-
-    /// Checks that the scene with these `facts` has everything that the lesson asks for.
-    ///
-    /// # Errors
-    /// [`LessonError::Faulty`] with each thing that the scene lacks.
-    pub fn check(&self, facts: &SceneFacts) -> Result<(), LessonError> {
-        let mut problems = Problems::default();
-        fits(&mut problems, (&self.steps, &self.rules), facts);
-        let mut source = Source::new(&self.text, &self.file)?;
-        source.add(problems);
-        if source.is_good() {
-            Ok(())
-        } else {
-            Err(source.into_error())
         }
     }
 
@@ -243,6 +217,17 @@ impl Lesson {
     pub fn default_mode(&self) -> Mode {
         self.modes.first().copied().unwrap_or(Mode::Guided)
     }
+}
+
+/// Text of the built-in lesson of that name.
+///
+/// # Errors
+/// [`LessonError::NotFound`] for an unknown name.
+pub(super) fn find(name: &str) -> Result<&'static str, LessonError> {
+    Lesson::builtin_text(name).ok_or_else(|| LessonError::NotFound {
+        name: name.to_owned(),
+        known: Lesson::builtin_names().join(", "),
+    })
 }
 
 /// Checks that a scene has what these steps and rules ask for.

@@ -69,7 +69,7 @@ pub struct FlaskFacts {
     pub lifted: bool,
 }
 
-/// Properties of a scene, against which a lesson is checked: [`Lesson::check`](super::Lesson::check).
+/// Properties of a scene, against which a lesson is checked: [`Lesson::parse_for`](super::Lesson::parse_for).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneFacts {
     /// The scene's name.

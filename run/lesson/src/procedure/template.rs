@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::error::LessonError;
-use super::file::{Lesson, is_id};
+use super::file::{Lesson, find, is_id};
 use crate::language::Language;
 use crate::texts::lesson_lines;
 
@@ -134,13 +134,9 @@ impl Lesson {
                 known: Self::builtin_names().join(", "),
             });
         }
-        let found = Self::builtin_text(from).zip(lesson_lines(language, from));
-        let Some((steps, texts)) = found else {
-            return Err(LessonError::NotFound {
-                name: from.to_owned(),
-                known: Self::builtin_names().join(", "),
-            });
-        };
+        let steps = find(from)?;
+        // A test rules out that a built-in lesson has no texts in a language.
+        let texts = lesson_lines(language, from).unwrap_or_default();
         let mut text = format!(
             "# A lesson of your own, begun as a copy of {from}. What stands behind # is a comment, which the program does not read.\n"
         );

@@ -26,6 +26,12 @@ pub(super) fn facts() -> SceneFacts {
     }
 }
 
+/// Reads a lesson that is good except for its scene, which has these properties.
+fn read_for(text: &str, facts: SceneFacts) -> Result<Lesson, LessonError> {
+    Lesson::parse(text, "own.toml").unwrap();
+    Lesson::parse_for(text, "own.toml", |_| Ok(Some(facts)))
+}
+
 #[test]
 fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
     let changes: &[(Change<'_>, &[&str])] = &[
@@ -74,11 +80,10 @@ fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
             &["step[1].condition.all[1].any[1].goggles:", "goggles"],
         ),
     ];
-    let good = Lesson::parse(GOOD, "own.toml").unwrap();
     for (change, needed) in changes {
         let mut facts = facts();
         change(&mut facts);
-        let error = good.check(&facts).unwrap_err().to_string();
+        let error = read_for(GOOD, facts).unwrap_err().to_string();
         assert!(error.starts_with("own.toml: "), "{error}");
         for needed in *needed {
             assert!(error.contains(needed), "{needed} is not in {error}");
@@ -90,11 +95,11 @@ fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
 #[test]
 fn each_body_is_asked_for_by_what_needs_it() {
     let refused = |body: &str, change: &dyn Fn(&mut SceneFacts)| {
-        let own = lesson(&[("one", body)], &[]);
-        own.check(&facts()).unwrap();
+        let own = text(&[("one", body)], &[]);
+        read_for(&own, facts()).unwrap();
         let mut facts = facts();
         change(&mut facts);
-        own.check(&facts).is_err()
+        read_for(&own, facts).is_err()
     };
     let of = |condition: &str| format!("condition = {{ {condition} }}");
     let keep =
@@ -130,14 +135,14 @@ fn each_body_is_asked_for_by_what_needs_it() {
     assert!(!refused(&keep("{ never = \"boiled-over\" }"), &|it| it
         .heat =
         false));
-    let same = lesson(
+    let same = text(
         &[(
             "one",
             &of("poured = { from = \"a\", into = \"a\", at_least_ml = 1 }"),
         )],
         &[],
     );
-    let error = same.check(&facts()).unwrap_err().to_string();
+    let error = read_for(&same, facts()).unwrap_err().to_string();
     assert!(
         error.contains("poured.into") && error.contains("name another"),
         "{error}"
