@@ -76,7 +76,7 @@ fn a_flipped_bit_is_noticed_wherever_it_is() {
     }
 }
 
-/// It was told to be cut off, though it is whole and longer. Two files in one are no track either.
+/// It was said to be cut off, though it is whole and longer. Two files in one are no track either.
 #[test]
 fn bytes_after_the_end_are_told_from_a_file_that_was_cut() {
     let whole = super::bytes(&super::track(FRAMES));
