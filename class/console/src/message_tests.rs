@@ -24,7 +24,7 @@ fn student() -> Student {
         name: Text::clipped("Ada"),
         version: Text::clipped("0.1.0"),
         choices: List::clipped([Choice {
-            title: Text::clipped("Correct: acid into water"),
+            title: Text::clipped("Acid into water"),
             kind: Kind::Correct,
             counterpart: Some(0),
         }]),

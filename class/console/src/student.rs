@@ -89,12 +89,14 @@ pub struct State {
     pub hints: List<Said, 16>,
     /// Measured values.
     pub readings: Readings,
-    /// The last incidents.
+    /// The last incidents, and before them grave ones of the present attempt.
     pub incidents: List<Incident, 32>,
     /// Number of incidents of the present attempt.
     pub incidents_of_attempt: u32,
     /// Number of incidents in all.
     pub incidents_so_far: u32,
+    /// Number of those in which someone would have been hurt.
+    pub grave_so_far: u32,
     /// The file that the session is recorded in, on the student's computer; `None` where nothing is recorded.
     pub recording: Option<Text<SENTENCE>>,
     /// Times of frames.

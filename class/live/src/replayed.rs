@@ -142,6 +142,7 @@ impl Live {
             incidents: attempts.incidents.clone(),
             incidents_of_attempt: attempts.of_present,
             incidents_so_far: attempts.so_far,
+            grave_so_far: attempts.grave_so_far,
             recording: None,
             frames: Frames {
                 mean_s: Some(self.took),

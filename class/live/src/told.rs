@@ -5,17 +5,23 @@ use vitriol_lesson::{Attempt, Event, Glass, Texts, What};
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Held;
 
+/// Most incidents that are sent.
+const MOST: usize = 32;
+
 /// The attempts of a run, as the console shows them.
 #[derive(Clone, Debug, Default)]
 pub struct Attempts {
     /// Number of the present one, from 1; 0 before the first.
     pub present: u32,
-    /// What went wrong lately, attempt by attempt, in the order of its beginning.
-    pub incidents: List<Incident, 32>,
+    /// What went wrong lately, attempt by attempt, in the order of its beginning. Grave incidents of the present attempt are the last to be
+    /// left out: a card of the class names one of them.
+    pub incidents: List<Incident, MOST>,
     /// Number of incidents of the present attempt.
     pub of_present: u32,
     /// Number of incidents in all.
     pub so_far: u32,
+    /// Number of grave ones in all.
+    pub grave_so_far: u32,
 }
 
 /// The attempts in these events.
@@ -36,13 +42,24 @@ pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
             })
             .collect()
     };
-    let all: Vec<_> = (1..).zip(&attempts).flat_map(of).collect();
-    let last = attempts.last();
+    let mut incidents: Vec<_> = (1..).zip(&attempts).flat_map(of).collect();
+    let present = attempts.len() as u32;
+    let so_far = incidents.len() as u32;
+    let grave_so_far = incidents.iter().filter(|it| it.grave).count() as u32;
+    let mut over = incidents.len().saturating_sub(MOST);
+    for matters in [false, true] {
+        incidents.retain(|it| {
+            let goes = over > 0 && (it.grave && it.attempt == present) == matters;
+            over -= usize::from(goes);
+            !goes
+        });
+    }
     Attempts {
-        present: attempts.len() as u32,
-        of_present: last.map_or(0, |last| last.incidents.len() as u32),
-        so_far: all.len() as u32,
-        incidents: List::clipped(all[all.len().saturating_sub(32)..].iter().cloned()),
+        present,
+        of_present: attempts.last().map_or(0, |it| it.incidents.len() as u32),
+        so_far,
+        grave_so_far,
+        incidents: List::clipped(incidents),
     }
 }
 
@@ -85,7 +102,8 @@ mod tests {
     use super::*;
     use vitriol_lesson::{Cause, Contents, Glassware, Incident as Found};
 
-    /// What went wrong in an attempt is told as that attempt's, and the present one counts its own alone.
+    /// What went wrong in an attempt is told as that attempt's, and the present one counts its own alone. All are counted, and a grave one
+    /// of the present attempt stays in the list after more others than fit.
     #[test]
     fn incidents_are_of_their_attempts() {
         let begun = |t_s, scene: &str| Event::Begun {
@@ -94,18 +112,30 @@ mod tests {
             contents: Contents::new(),
             glass: Glassware::default(),
         };
-        let dropped = |t_s| {
+        let found = |t_s, what| {
             Event::Incident(Found {
                 t_s,
                 until_s: t_s,
-                what: What::Dropped {
-                    flask: "source".to_owned(),
-                    speed_m_s: 2.0,
-                    broke: false,
-                },
+                what,
                 cause: Cause::Unknown,
                 place_m: [0.0; 3],
             })
+        };
+        let dropped = |t_s| {
+            let what = What::Dropped {
+                flask: "source".to_owned(),
+                speed_m_s: 2.0,
+                broke: false,
+            };
+            found(t_s, what)
+        };
+        let boiled_over = |t_s| {
+            let what = What::BoiledOver {
+                flask: "source".to_owned(),
+                volume_m3: 1e-6,
+                acid: 0.5,
+            };
+            found(t_s, what)
         };
         let texts = Texts::english().unwrap();
         let mut events = vec![begun(0.0, "water-into-acid")];
@@ -119,6 +149,25 @@ mod tests {
         let scenes = [0, 31].map(|at| &*told.incidents[at].scene);
         assert_eq!(scenes, ["Water into acid", "my-own"]);
         assert_eq!(told.incidents[31].t_s, Some(51.0));
+
+        // A grave one before the drops of each attempt: that of the present attempt stays.
+        events.insert(1, boiled_over(0.5));
+        events.push(boiled_over(52.0));
+        events.extend((60..100).map(|t| dropped(f64::from(t))));
+        let told = attempts(&events, &texts);
+        assert_eq!(
+            [told.of_present, told.so_far, told.grave_so_far],
+            [42, 83, 2]
+        );
+        let times: Vec<_> = told.incidents.iter().filter_map(|it| it.t_s).collect();
+        let last = (69..100).map(f64::from);
+        assert_eq!(times, [52.0].into_iter().chain(last).collect::<Vec<_>>());
+        // More grave ones than fit: the last of them.
+        events.extend((100..140).map(|t| boiled_over(f64::from(t))));
+        let told = attempts(&events, &texts);
+        assert_eq!([told.so_far, told.grave_so_far], [123, 42]);
+        let times: Vec<_> = told.incidents.iter().filter_map(|it| it.t_s).collect();
+        assert_eq!(times, (108..140).map(f64::from).collect::<Vec<_>>());
         assert_eq!(attempts(&[], &texts).present, 0);
     }
 }

@@ -246,7 +246,7 @@ impl Inner {
             let here = entry.connection.is_some();
             Brief::new(*student, entry.is.name.clone(), here, entry.state.as_ref())
         };
-        let mut offered = self.here().map(|entry| &entry.is.choices);
+        let mut offered = self.here().map(|(_, entry)| &entry.is.choices);
         let first = offered.next();
         let choices = first.filter(|first| offered.all(|other| other == *first));
         text(&ToPage::Class {
@@ -318,10 +318,13 @@ impl Inner {
         }
     }
 
-    /// The students that are connected.
-    fn here(&self) -> impl Iterator<Item = &Entry> {
-        let entries = self.students.values();
-        entries.filter(|entry| entry.connection.is_some())
+    /// The students that are connected, by their numbers.
+    fn here(&self) -> impl Iterator<Item = (u32, &Entry)> {
+        let entries = self
+            .students
+            .iter()
+            .map(|(student, entry)| (*student, entry));
+        entries.filter(|(_, entry)| entry.connection.is_some())
     }
 
     fn answer(&self, page: u64, answer: &ToPage) {
@@ -347,9 +350,7 @@ impl Inner {
 
     /// Passes an order on to each student that is connected.
     fn order_all(&mut self, page: u64, echo: u32, command: &Command) {
-        let here = self.students.iter();
-        let here = here.filter(|(_, entry)| entry.connection.is_some());
-        let here: Vec<_> = here.map(|(student, _)| *student).collect();
+        let here: Vec<_> = self.here().map(|(student, _)| student).collect();
         let [mut given, mut refused] = [0, 0];
         for student in here {
             match self.order(student, command.clone()) {

@@ -4,11 +4,24 @@ function need(student) {
   return (student.grave ? 1e6 : 0) + student.incidents;
 }
 
-function card(student) {
-  const button = make("button", "", student.incidents > 0 ? "troubled" : "");
+const cards = new Map();   // by the student's number: its item of the list
+function newCard(number) {
+  const button = make("button");
   button.type = "button";
-  button.dataset.student = student.student;
-  button.append(make("strong", student.name));
+  button.dataset.student = number;
+  button.append(make("strong"), ...Array.from({ length: 5 }, () => make("span")));
+  button.onclick = () => open(number);
+  const item = make("li");
+  item.append(button);
+  return item;
+}
+
+// A card is written and not made anew: a click on a part that has been replaced since it was pressed is lost.
+function card(student) {
+  if (!cards.has(student.student)) cards.set(student.student, newCard(student.student));
+  const item = cards.get(student.student);
+  const button = item.firstChild;
+  button.classList.toggle("troubled", student.incidents > 0);
   const lines = [
     student.here ? student.scene || "–" : tr("not_connected"),
     student.step ? tr("step_of", { step: student.step[0], of: student.step[1] }) : "",
@@ -16,21 +29,37 @@ function card(student) {
     student.paused ? tr("paused") : "",
     student.incidents > 0 ? `⚠ ${count(student.incidents, "incident")}: ${student.gravest ?? ""}` : "",
   ];
-  for (const line of lines.filter(Boolean)) button.append(make("span", line));
-  button.onclick = () => open(student.student);
-  const item = make("li");
-  item.append(button);
+  [student.name, ...lines].forEach((line, at) => {
+    write(button.children[at], line);
+    button.children[at].hidden = !line;
+  });
   return item;
 }
+
+// What is pressed stays where it is until it is let go.
+function showCards(pressed) {
+  const list = $("students");
+  for (const [number, item] of cards) {
+    if (page.students.some((student) => student.student === number)) continue;
+    item.remove();
+    cards.delete(number);
+  }
+  const focused = document.activeElement;
+  [...page.students].sort((one, other) => need(other) - need(one)).map(card).forEach((item, at) => {
+    const there = list.children[at];
+    if (item !== there && !(pressed && item.isConnected)) list.insertBefore(item, pressed ? null : there ?? null);
+  });
+  // A card that has moved has lost the focus.
+  if (focused !== document.activeElement && list.contains(focused)) focused.focus();
+}
+$("students").onclick = () => showCards(false);
 
 function showClass(students, choices) {
   const first = page.students.length === 0;
   page.students = students;
   showAll(students, choices);
   $("empty").hidden = students.length > 0;
-  const focused = document.activeElement?.dataset?.student;
-  $("students").replaceChildren(...[...students].sort((one, other) => need(other) - need(one)).map(card));
-  if (focused) $("students").querySelector(`[data-student="${CSS.escape(focused)}"]`)?.focus();
+  showCards($("students").matches(":active"));
   showName();
   // One headset is no class.
   if (first && students.length === 1 && page.opened === null) open(students[0].student);

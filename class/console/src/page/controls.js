@@ -1,7 +1,7 @@
 // What an instructor can ask for. A control shows what the student's program says, not what was pressed; while an order is
 // under way it has three dots.
 let echoes = 0;
-const waiting = new Map();   // by the page's number: control, words, the hub's number, what follows
+const waiting = new Map();   // by the page's number: command, control, words, the hub's number, what follows
 
 function order(command, words, control, then = () => {}) {
   if (page.opened === null) return;
@@ -9,7 +9,7 @@ function order(command, words, control, then = () => {}) {
   if (!say({ say: "order", echo: echoes, student: page.opened, command })) {
     return write($("said"), tr("not_sent", { words }));
   }
-  waiting.set(echoes, { control, words, number: null, begins: BEGIN.includes(command.do), ends: command.do === "end", then });
+  waiting.set(echoes, { command, control, words, number: null, then });
   control.dataset.waits = "";
   write($("said"), `${words} …`);
 }
@@ -27,7 +27,7 @@ function ordered(echo, number) {
   if (!order) return;
   order.number = number;
   // Its last state may not come: the program ends with its session.
-  if (order.ends) page.over = page.opened;
+  if (order.command.do === "end") page.over = page.opened;
 }
 
 function refused(echo, why) {
@@ -36,7 +36,10 @@ function refused(echo, why) {
 }
 
 function loseOrders() {
-  for (const echo of [...waiting.keys()]) done(echo, tr("lost"));
+  for (const [echo, { command }] of [...waiting]) {
+    // A program that was ended closes its connection, often before its last state is sent.
+    done(echo, tr(command.do === "end" && page.over !== null ? "done" : "lost"));
+  }
 }
 
 // What brings up a scene from its start, which takes a while, and loses what the student has done in this attempt.
@@ -112,7 +115,7 @@ function showControls(state) {
   for (const [echo, order] of waiting) {
     if (order.number === null || order.number > state.done) continue;
     order.then();
-    done(echo, order.begins && state.coming ? tr("prepared") : tr("done"));
+    done(echo, BEGIN.includes(order.command.do) && state.coming ? tr("prepared") : tr("done"));
   }
   $("coming").hidden = !state.coming;
   if (state.coming) write($("coming-scene"), tr("preparing", { scene: state.coming.scene }));
@@ -151,9 +154,10 @@ function showSummary() {
   if (!state || !$("summary").hidden) return;
   const attempts = count(Math.max(state.attempt, 1), "attempt");
   write($("summary-length"), tr("lasted", { time: seconds(state.time_s), attempts, scene: state.scene }));
-  const grave = state.incidents.filter((incident) => incident.grave).length;
-  write($("summary-incidents"), count(state.incidents_so_far, "incident") + (grave ? tr("of_grave", { number: grave }) : "") +
-    (state.incidents_so_far ? tr("listed") : "."));
+  const { incidents_so_far: all, grave_so_far: grave } = state;
+  const listed = state.incidents.length;
+  write($("summary-incidents"), count(all, "incident") + (grave ? tr("of_grave", { number: grave }) : "") +
+    (listed < all ? tr("listed_some", { number: listed }) : all ? tr("listed") : "."));
   write($("summary-recording"), page.is.replays ? tr("was_replay")
     : state.recording ? tr("recorded", { file: state.recording })
     : tr("not_recorded"));

@@ -133,6 +133,7 @@ fn a_card_names_the_gravest_incident_of_the_attempt() {
         ]),
         incidents_of_attempt: 2,
         incidents_so_far: 3,
+        grave_so_far: 2,
         ..first_state()
     });
     let mut client = Client::new(&hub, &cookie(&hub));

@@ -1,24 +1,13 @@
 //! A lesson at the page: attempts, work that would be lost, the end, a class, and what goes wrong on the way.
 
 use serde_json::json;
-use vitriol_console::{Coming, Command, Incident, List, Text};
-use vitriol_tests::browser::Look;
+use vitriol_console::{Coming, Command, Incident, List, Port, State, Text};
 use vitriol_tests::devtools::Tab;
+use vitriol_tests::wait;
 
+use crate::look::{at, begins, class_of, click, no_complaints, open, reads, text};
 use crate::proxy::Proxy;
-use crate::student::{FakeStudent, hub};
-
-fn at(id: &str) -> String {
-    format!("document.getElementById('{id}')")
-}
-
-fn click(tab: &mut Tab, id: &str) {
-    tab.eval(&format!("{}.click()", at(id)));
-}
-
-fn reads(id: &str, text: &str) -> String {
-    format!("{}.textContent === {}", at(id), json!(text))
-}
+use crate::student::{card, first_state};
 
 /// An incident of that attempt, whose text is its own.
 fn incident(attempt: u32, text: &str, grave: bool) -> Incident {
@@ -27,24 +16,22 @@ fn incident(attempt: u32, text: &str, grave: bool) -> Incident {
         text: Text::clipped(text),
         grave,
         attempt,
-        scene: Text::clipped("Correct: acid into water"),
+        scene: Text::clipped("Acid into water"),
     }
 }
 
 #[test]
 fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
-    let student = FakeStudent::in_hub(&hub, "Ada");
-    let Some(mut tab) = Tab::new() else { return };
-    tab.look([1280, 900], Look::Light);
-    tab.go(&hub.invite().unwrap().address);
+    let Some((_folder, hub, [student], mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
+    open(&mut tab, &hub);
     tab.until("document.querySelectorAll('#incident-list li').length === 1");
 
     // Another scene has begun: what went wrong before stays under its own attempt.
     {
         let mut state = student.state.lock().unwrap();
-        state.scene = Text::clipped("Incorrect: water into acid");
+        state.scene = Text::clipped("Water into acid");
         (state.choice, state.attempt) = (Some(1), 2);
         state.incidents = List::clipped([
             incident(1, "Acid on the left hand.", true),
@@ -58,9 +45,9 @@ fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
     assert_eq!(
         tab.eval(list),
         json!([
-            "Attempt 2: Incorrect: water into acid (now)",
+            "Attempt 2: Water into acid (now)",
             "20.0 s ⚠ Water was poured into acid.",
-            "Attempt 1: Correct: acid into water",
+            "Attempt 1: Acid into water",
             "20.0 s ⚠ Acid on the left hand.",
         ])
     );
@@ -70,15 +57,14 @@ fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
     let pressed = "[...document.querySelectorAll('#scenes button')].findIndex((it) => it.getAttribute('aria-pressed') === 'true')";
     assert_eq!(tab.eval(pressed), 1);
     student.state.lock().unwrap().coming = Some(Coming {
-        scene: Text::clipped("Correct: acid into water"),
+        scene: Text::clipped("Acid into water"),
         choice: Some(0),
     });
     tab.until(&format!("!{}.hidden", at("coming")));
     assert_eq!(tab.eval(pressed), 0);
-    let line = tab.eval(&format!("{}.textContent", at("coming-scene")));
-    let line = line.as_str().unwrap();
+    let line = text(&mut tab, "coming-scene");
     assert!(
-        line.starts_with("Being prepared: Correct: acid into water."),
+        line.starts_with("Being prepared: Acid into water."),
         "{line}"
     );
     student.state.lock().unwrap().coming = None;
@@ -104,28 +90,24 @@ fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
     click(&mut tab, "lose-now");
     assert_eq!(student.ordered(), Command::Toggle {});
     student.nothing_else();
+    no_complaints(&mut tab);
 }
 
 #[test]
 fn the_end_leaves_a_summary() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
-    let student = FakeStudent::in_hub(&hub, "Ada");
+    let Some((_folder, hub, [student], mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
     student.state.lock().unwrap().recording = Some(Text::clipped("/home/ada/pour.mcap"));
-    let Some(mut tab) = Tab::new() else { return };
-    tab.go(&hub.invite().unwrap().address);
+    open(&mut tab, &hub);
     tab.until(&reads("shown", "nothing"));
     assert_eq!(tab.eval(&format!("{}.hidden", at("summary"))), true);
     click(&mut tab, "end");
     click(&mut tab, "end-now");
     assert_eq!(student.ordered(), Command::End {});
     tab.until(&format!("!{}.hidden", at("summary")));
-    let text = |tab: &mut Tab, id: &str| {
-        let text = tab.eval(&format!("{}.textContent", at(id)));
-        text.as_str().unwrap().to_owned()
-    };
     let length = text(&mut tab, "summary-length");
-    let end = " s of simulated time, in 1 attempt; the last scene was: Correct: acid into water.";
+    let end = " s of simulated time, in 1 attempt; the last scene was: Acid into water.";
     assert!(
         length.starts_with("It lasted ") && length.ends_with(end),
         "{length}"
@@ -146,17 +128,61 @@ fn the_end_leaves_a_summary() {
     drop(hub);
     tab.until(&reads("link", "The session is over."));
     assert_eq!(tab.eval(&format!("{}.hidden", at("summary"))), false);
+    no_complaints(&mut tab);
+}
+
+/// Publishes this state until the page shows it, by its message: a port may leave a state out.
+fn publish(port: &Port, state: &State, tab: &mut Tab, shown: &str) {
+    let shows = reads("shown", shown);
+    wait::until(shown, || {
+        port.publish(state.clone());
+        (tab.eval(&shows) == true).then_some(())
+    });
+}
+
+/// A program that ends before its last state is sent has done what was ordered. Of more incidents than are sent the summary counts all.
+#[test]
+fn an_end_without_a_last_state_is_done() {
+    let Some((_folder, hub, [], mut tab)) = class_of("en", []) else {
+        return;
+    };
+    let port = hub.student(card("Ada")).unwrap().unwrap();
+    let mut state = State {
+        incidents: List::clipped([
+            incident(1, "Acid on the face.", true),
+            incident(1, "Liquid was spilt.", false),
+        ]),
+        incidents_so_far: 40,
+        grave_so_far: 3,
+        ..first_state()
+    };
+    open(&mut tab, &hub);
+    publish(&port, &state, &mut tab, "nothing");
+    click(&mut tab, "end");
+    click(&mut tab, "end-now");
+    wait::until("the order", || port.commands().pop());
+    // Once the page shows this state, it has the hub's answer to the order, which is sent first.
+    state.controls.message = Text::clipped("Ending.");
+    publish(&port, &state, &mut tab, "Ending.");
+    drop(port);
+    drop(hub);
+    tab.until(&reads("link", "The session is over."));
+    assert_eq!(text(&mut tab, "said"), "End: done.");
+    assert_eq!(
+        text(&mut tab, "summary-incidents"),
+        "40 incidents, 3 of them grave; 2 of the incidents are listed below."
+    );
+    no_complaints(&mut tab);
 }
 
 #[test]
 fn a_page_that_is_open_takes_another_code() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
-    let _student = FakeStudent::in_hub(&hub, "Ada");
-    let Some(mut tab) = Tab::new() else { return };
+    let Some((_folder, hub, _student, mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
     let page = format!("http://{}/", hub.address());
     tab.go(&format!("{page}#AAAAA-AAAAA"));
-    tab.until("document.getElementById('entry-said').textContent.startsWith('This code is wrong')");
+    tab.until(&begins("entry-said", "This code is wrong"));
     // As where an address is pasted that differs in its fragment alone: nothing is loaded.
     let paste = |code: &str| format!("location.hash = {}", json!(format!("#{code}")));
     tab.eval("window.stays = true");
@@ -167,18 +193,17 @@ fn a_page_that_is_open_takes_another_code() {
     // A page that is connected leaves a code to another browser.
     let spare = hub.invite().unwrap().code;
     tab.eval(&paste(&spare));
-    tab.until("document.getElementById('link').textContent.startsWith('Connected already')");
+    tab.until(&begins("link", "Connected already"));
     assert_eq!(crate::client::enter(hub.address(), &spare).status, 204);
+    no_complaints(&mut tab);
 }
 
 #[test]
 fn a_message_that_was_not_sent_stays_and_an_old_picture_tells_its_age() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let Some((_folder, hub, [student], mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
     let proxy = Proxy::new(hub.address());
-    let student = FakeStudent::in_hub(&hub, "Ada");
-    let Some(mut tab) = Tab::new() else { return };
-    tab.look([1280, 900], Look::Light);
     let code = hub.invite().unwrap().code;
     tab.go(&format!("http://{}/#{code}", proxy.address));
     tab.until(&reads("age", "live"));
@@ -206,7 +231,7 @@ fn a_message_that_was_not_sent_stays_and_an_old_picture_tells_its_age() {
     );
 
     proxy.cut(true);
-    tab.until("document.getElementById('link').textContent.startsWith('No connection')");
+    tab.until(&begins("link", "No connection"));
     tab.until("/^picture of [1-9]\\d* s ago$/.test(document.getElementById('age').textContent)");
     let send = "{ message.value = 'Slowly!'; message.form.requestSubmit(); message.value }"
         .replace("message.", &format!("{}.", at("message")));
@@ -224,13 +249,49 @@ fn a_message_that_was_not_sent_stays_and_an_old_picture_tells_its_age() {
     let text = Text::clipped("Slowly!");
     assert_eq!(student.ordered(), Command::Message { text });
     tab.until(&format!("{}.value === ''", at("message")));
+    no_complaints(&mut tab);
+}
+
+/// The names on the cards of the class, in their order.
+const NAMES: &str =
+    "[...document.querySelectorAll('#students strong')].map((it) => it.textContent).join()";
+
+/// Presses the mouse's button, or lets it go, in the middle of Ada's card.
+fn mouse(tab: &mut Tab, kind: &str) {
+    let middle = "(() => { const it = document.querySelector('#students button').getBoundingClientRect(); \
+        return [it.x + it.width / 2, it.y + it.height / 2] })()";
+    let middle = tab.eval(middle);
+    let event =
+        json!({"type": kind, "x": middle[0], "y": middle[1], "button": "left", "clickCount": 1});
+    tab.call("Input.dispatchMouseEvent", event);
+}
+
+/// A card that is pressed neither moves nor is replaced, whatever is received before it is let go.
+#[test]
+fn a_click_counts_while_the_class_changes() {
+    let Some((_folder, hub, [_ada, bo], mut tab)) = class_of("en", ["Ada", "Bo"]) else {
+        return;
+    };
+    tab.go(&hub.invite().unwrap().address);
+    // Both are equally in need, and stand in the order in which they came.
+    tab.until("document.querySelectorAll('#students .troubled').length === 2");
+    assert_eq!(tab.eval(NAMES), "Ada,Bo");
+    mouse(&mut tab, "mousePressed");
+    bo.state.lock().unwrap().incidents_of_attempt = 5;
+    tab.until("document.querySelector('#students').textContent.includes('5 incidents')");
+    assert_eq!(tab.eval(NAMES), "Ada,Bo");
+    mouse(&mut tab, "mouseReleased");
+    tab.until(&reads("name", "Ada"));
+    // Now Bo comes first.
+    tab.until(&format!("{NAMES} === 'Bo,Ada'"));
+    no_complaints(&mut tab);
 }
 
 #[test]
 fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
-    let students = ["Ada", "Bo", "Cy"].map(|name| FakeStudent::in_hub(&hub, name));
+    let Some((_folder, hub, students, mut tab)) = class_of("en", ["Ada", "Bo", "Cy"]) else {
+        return;
+    };
     let lists = [
         Vec::new(),
         vec![
@@ -247,14 +308,12 @@ fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
         state.incidents_of_attempt = list.len() as u32;
         state.incidents = List::clipped(list);
     }
-    let Some(mut tab) = Tab::new() else { return };
     tab.go(&hub.invite().unwrap().address);
-    let names =
-        "[...document.querySelectorAll('#students strong')].map((it) => it.textContent).join()";
-    tab.until(&format!("{names} === 'Cy,Bo,Ada'"));
-    let card = tab.eval("document.querySelector('#students button').textContent");
-    let card = card.as_str().unwrap();
-    assert!(card.contains("⚠ 2 incidents: Acid on the face."), "{card}");
+    tab.until(&format!("{NAMES} === 'Cy,Bo,Ada'"));
+    let card = "document.querySelector('#students button').textContent";
+    tab.until(&format!(
+        "{card}.includes('⚠ 2 incidents: Acid on the face.')"
+    ));
 
     let all = |command: Command| {
         for student in &students {
@@ -285,4 +344,5 @@ fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
     }
     click(&mut tab, "lose-now");
     all(Command::Scene { choice: 1 });
+    no_complaints(&mut tab);
 }

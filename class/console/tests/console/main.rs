@@ -8,6 +8,8 @@ mod distant;
 #[cfg(target_os = "linux")]
 mod instructor;
 #[cfg(target_os = "linux")]
+mod look;
+#[cfg(target_os = "linux")]
 mod page;
 #[cfg(target_os = "linux")]
 mod proxy;

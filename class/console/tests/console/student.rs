@@ -47,8 +47,8 @@ pub fn card(name: &str) -> Student {
         name: Text::clipped(name),
         version: Text::clipped("0.1.0"),
         choices: List::clipped([
-            choice("Correct: acid into water", Kind::Correct, Some(1)),
-            choice("Incorrect: water into acid", Kind::Incorrect, Some(0)),
+            choice("Acid into water", Kind::Correct, Some(1)),
+            choice("Water into acid", Kind::Incorrect, Some(0)),
             choice("The paper's three flasks", Kind::Other, None),
         ]),
         k_v: Some(Range {
@@ -72,7 +72,7 @@ pub fn first_state() -> State {
         text: Text::clipped(text),
     };
     let mut state = State {
-        scene: Text::clipped("Correct: acid into water"),
+        scene: Text::clipped("Acid into water"),
         choice: Some(0),
         step: Some(Step {
             number: 2,
@@ -86,11 +86,12 @@ pub fn first_state() -> State {
             text: Text::clipped("<img src=x onerror=alert(1)> Acid on the left hand."),
             grave: true,
             attempt: 1,
-            scene: Text::clipped("Correct: acid into water"),
+            scene: Text::clipped("Acid into water"),
         }]),
         attempt: 1,
         incidents_of_attempt: 1,
         incidents_so_far: 1,
+        grave_so_far: 1,
         ..State::default()
     };
     state.controls.k_v = Some(0.5);

@@ -252,6 +252,7 @@ impl Instructor {
             incidents: attempts.incidents.clone(),
             incidents_of_attempt: if is_new { 0 } else { attempts.of_present },
             incidents_so_far: attempts.so_far,
+            grave_so_far: attempts.grave_so_far,
             recording: self.recording.as_deref().map(Text::clipped),
             frames: self.frames(now),
         }
