@@ -1,6 +1,5 @@
 //! The subcommands, one file each.
 
-mod capped;
 mod course;
 pub mod doctor;
 #[cfg(feature = "export")]

@@ -15,7 +15,7 @@ use std::num::NonZero;
 use std::path::Path;
 
 use vitriol_lesson::procedure::Verdict as LessonVerdict;
-use vitriol_lesson::{Attempt, Lesson, Score};
+use vitriol_lesson::{Attempt, Score};
 use vitriol_record::store::Store;
 use vitriol_record::{Session, Timestamp};
 use vitriol_run::output::{make_folder, write_over};
@@ -148,7 +148,6 @@ pub fn grade(
                 let ended = Ended::Well {
                     graded: &read.graded,
                     taken: read.taken,
-                    lesson: read.lesson,
                 };
                 class.add((student, track, report.transpose()?), &ended, &words);
             }
@@ -203,20 +202,18 @@ struct Grading<'a, P> {
 }
 
 /// A track that was read.
-struct Read<'a> {
+struct Read {
     session: Session,
     graded: Graded,
     /// Whether an earlier call left the result.
     taken: bool,
-    /// The lesson that it is judged by.
-    lesson: Option<&'a Lesson>,
     /// The name that the student gave; results of it name nobody.
     student: Option<String>,
 }
 
-impl<'a, P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'a, P> {
+impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'_, P> {
     /// Grades one track.
-    fn track(&self, named: &Named) -> Result<Read<'a>, Failure> {
+    fn track(&self, named: &Named) -> Result<Read, Failure> {
         let (args, file) = (self.args, named.file.as_path());
         if files::is_absent(file) {
             return Err(format!(
@@ -241,7 +238,6 @@ impl<'a, P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Gradi
             student,
             graded,
             taken,
-            lesson: expected.lesson.as_ref().map(|(lesson, _)| lesson),
         };
         let result = args.out.as_ref().map(|out| Graded::file(out, &named.stem));
         let by = || (args.tolerance.unwrap_or_default(), args.device.as_deref());
@@ -297,7 +293,7 @@ impl<'a, P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Gradi
     }
 }
 
-impl Read<'_> {
+impl Read {
     /// Writes the page on the track, for that student, and gives back its name.
     fn tell(
         &self,

@@ -28,7 +28,6 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::cli::{CameraName, ReplayArgs};
-use crate::command::capped;
 use crate::command::course::{self, AskedLesson};
 #[cfg(feature = "class")]
 use crate::command::keeping::Kept;
@@ -47,9 +46,9 @@ use assemble::assemble;
 struct Replayed {
     #[serde(flatten)]
     report: Report,
-    /// Lines of the summary on how violently it boiled.
+    /// Texts of the summary, in the report's language.
     #[serde(skip)]
-    boiling: Vec<String>,
+    texts: Texts,
     report_json: String,
     report_html: String,
     /// `None` of a run without attempts.
@@ -266,7 +265,7 @@ fn replay(
     Ok(Replayed {
         #[cfg(feature = "class")]
         kept: record.keep(&folder, &rubric, &report.attempts)?,
-        boiling: boiling(&report, &texts),
+        texts,
         report: report.without_series(),
         report_json: place(REPORT_JSON),
         report_html: place(REPORT_HTML),
@@ -358,9 +357,13 @@ fn film_name(index: usize) -> &'static str {
 /// How violently a run boiled, in lines.
 fn boiling(report: &Report, texts: &Texts) -> Vec<String> {
     let said = texts.boiling(&report.boiling).into_iter();
-    let line = said.map(|it| format!("{}: {} ({})", it.name, it.value, it.note));
-    // On a terminal such spaces help nobody who searches.
-    line.map(|it| it.replace('\u{a0}', " ")).collect()
+    said.map(|it| searchable(&format!("{}: {} ({})", it.name, it.value, it.note)))
+        .collect()
+}
+
+/// Sentences in a line of a terminal, where spaces that no line breaks at help nobody who searches.
+fn searchable(text: &str) -> String {
+    in_a_line(text).replace('\u{a0}', " ")
 }
 
 fn describe(done: &Replayed) -> String {
@@ -391,7 +394,7 @@ fn describe(done: &Replayed) -> String {
         ),
         format!("at the end: {}", places.join(", ")),
     ];
-    lines.extend(done.boiling.iter().cloned());
+    lines.extend(boiling(report, &done.texts));
     lines.push(format!("state {}", report.state_hash));
     lines.extend(report.recording.iter().map(RecordingStatement::text));
     for ((attempt, score), number) in report.attempts.iter().zip(&report.score).zip(1..) {
@@ -399,12 +402,8 @@ fn describe(done: &Replayed) -> String {
         let Score { points, of, .. } = score;
         let of = count((*of).into(), "point");
         lines.push(format!("attempt {number}, {scene}: {points} of {of}"));
-        lines.extend(
-            score
-                .caps
-                .iter()
-                .map(|cap| format!("  {}", capped::said(cap))),
-        );
+        let caps = score.caps.iter().map(|it| done.texts.capped(it));
+        lines.extend(caps.map(|it| format!("  {}", searchable(&it))));
     }
     for (verdict, number) in report.lesson.iter().zip(1..) {
         let Verdict { points, of, .. } = verdict;

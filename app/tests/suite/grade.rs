@@ -358,7 +358,7 @@ fn a_danger_caps_the_points_and_is_named() {
     let ada = line(&class, "ada");
     assert_eq!((ada.points, ada.of), (Some(51), Some(85)));
     let why =
-        "At most 51 of 85 points: acid was handled without goggles. At 0.1 s: Acid was poured";
+        "At most 51 of 85 points: acid was handled without goggles. At 0.1\u{a0}s: Acid was poured";
     assert!(ada.caps[0].starts_with(why), "{:?}", ada.caps);
     let bob = line(&class, "bob");
     assert_eq!((bob.points, bob.caps.len()), (Some(85), 0));

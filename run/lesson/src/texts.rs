@@ -34,12 +34,10 @@ const CHINESE: &str = concat!(
 #[derive(Debug, thiserror::Error)]
 pub enum TextsError {
     /// It is no TOML, or a key is missing or unknown.
-    #[error("the string table does not have the keys of run/lesson/texts/en.toml: {0}")]
+    #[error("the string table does not have the keys of the English one in run/lesson/texts: {0}")]
     Keys(#[from] toml::de::Error),
     /// A sentence is there in one of the two tables alone.
-    #[error(
-        "{key}: is only in {only}; run/lesson/texts/en.toml and its translations have the same keys"
-    )]
+    #[error("{key}: is only in {only}; in run/lesson/texts each language has the same keys")]
     Alone {
         /// The sentence's key.
         key: String,
@@ -47,7 +45,7 @@ pub enum TextsError {
         only: &'static str,
     },
     /// A sentence has other holes than the English one.
-    #[error("{key}: has the holes {found:?}, and needs {needed:?}, as in run/lesson/texts/en.toml")]
+    #[error("{key}: has the holes {found:?}; the English one in run/lesson/texts has {needed:?}")]
     Holes {
         /// The sentence's key.
         key: String,
@@ -95,7 +93,7 @@ section!(BoilingTexts: steam steam_note gas gas_note thrown thrown_note drop dro
 section!(CriterionNames: right_order poured_slowly stayed_cool nothing_thrown_out nothing_spilt nothing_on_skin glass_whole);
 section!(Rule: right_order up_to nothing skin glass);
 section!(CapTexts: most wrong_order acid_on_skin no_goggles);
-section!(Evidence: too_little too_little_acid mean);
+section!(Evidence: too_little too_little_acid mean at);
 section!(LeftOut: nothing_poured no_acid no_heat);
 section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
     sash_open time_up wrong_answer skipped not_done);
@@ -118,7 +116,7 @@ section!(pub PlotTexts, "Titles and units of a report's plots.": density_error k
 section!(pub CurveTexts, "Legends of a report's plots.": mean p99 maximum least most kinetic_energy spilled evaporated mist
     superheat particles lost given steam all foam closure rebuilds);
 
-/// The texts of one language: a file of `run/lesson/texts`, of which each key is used and none is missing.
+/// The texts of one language: its file in `run/lesson/texts`, and its file in `report` there. Each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Texts {
@@ -209,7 +207,7 @@ impl Texts {
         asked.map_or(id, String::as_str)
     }
 
-    /// Parses the text of a file.
+    /// Parses the text of a language's two files, one behind the other.
     ///
     /// # Errors
     /// [`TextsError`] if a key is missing or unknown, or a sentence's holes are not those of the English one: it would lose a number then,
@@ -219,7 +217,7 @@ impl Texts {
         let texts = toml::from_str(text)?;
         for (key, needed) in &needed {
             let Some(found) = found.get(key) else {
-                let (key, only) = (key.clone(), "run/lesson/texts/en.toml");
+                let (key, only) = (key.clone(), "the English table");
                 return Err(TextsError::Alone { key, only });
             };
             if found != needed {

@@ -37,6 +37,12 @@ impl Texts {
         }
     }
 
+    /// A moment of simulated time, s, to a tenth.
+    pub(crate) fn moment(&self, s: f64) -> String {
+        let number = self.with_decimal(&format!("{s:.1}"));
+        self.unit.seconds.fill(&[("number", &number)])
+    }
+
     /// Whole °C: 134 °C is not 130 °C to a reader of a thermometer.
     pub(crate) fn temperature(&self, celsius: f64) -> String {
         // Without the sign of -0.
@@ -142,6 +148,7 @@ mod tests {
         assert_eq!(plain(texts.rate(9.96e-6)), "10 mL/s");
         assert_eq!(plain(texts.duration(3.12)), "3.1 s");
         assert_eq!(plain(texts.duration(300.0)), "5.0 min");
+        assert_eq!(plain(texts.moment(142.17)), "142.2 s");
         assert_eq!(plain(texts.temperature(133.6)), "134 °C");
         assert_eq!(plain(texts.temperature(-0.2)), "0 °C");
         assert_eq!(plain(texts.fraction(0.9642)), "96 %");

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use crate::skin::{self, Acid, Heat};
 use crate::texts::{Template, Texts};
 use crate::{
-    Attempt, Cause, Content, Criterion, Ending, Incident, Pour, Score, Skin, Surface, What,
+    Attempt, Cap, Cause, Content, Criterion, Ending, Evidence, Incident, Pour, Score, Skin,
+    Surface, What,
 };
 
 /// Tone of a sentence.
@@ -128,6 +129,26 @@ impl Texts {
         } else {
             None
         }
+    }
+
+    /// Evidence with its moment, if it has one.
+    pub fn told(&self, evidence: &Evidence) -> String {
+        let Some(t_s) = evidence.t_s else {
+            return evidence.text.clone();
+        };
+        let time = self.moment(t_s);
+        let holes = [("time", time.as_str()), ("text", evidence.text.as_str())];
+        self.evidence.at.fill(&holes)
+    }
+
+    /// A cap, and the first evidence for it.
+    pub fn capped(&self, cap: &Cap) -> String {
+        let Some(first) = cap.evidence.first() else {
+            return cap.text.clone();
+        };
+        let first = self.told(first);
+        let two = [("first", cap.text.as_str()), ("second", first.as_str())];
+        self.join.two.fill(&two)
     }
 
     /// A sentence about a pour.

@@ -26,28 +26,12 @@ pub struct GradesTexts {
     pub nothing: String,
     /// Where an attempt has no end.
     pub broken_off: String,
-    /// The decimal point.
-    decimal: String,
-    at: String,
     unread: String,
     otherwise: String,
     counted: String,
 }
 
 impl GradesTexts {
-    /// A moment of simulated time, s.
-    pub fn moment(&self, t_s: f64) -> String {
-        format!("{t_s:.1} s").replace('.', &self.decimal)
-    }
-
-    /// What happened at a moment, s.
-    pub fn at(&self, t_s: f64, text: &str) -> String {
-        // The text last: it may hold what looks like a hole.
-        self.at
-            .replace("{time}", &self.moment(t_s))
-            .replace("{text}", text)
-    }
-
     /// A recording could not be read, for this cause.
     pub fn unread(&self, why: &str) -> String {
         self.unread.replace("{why}", why)

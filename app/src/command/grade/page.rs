@@ -39,7 +39,7 @@ pub fn html(class: &Class, words: &Words) -> String {
         }
         script { (PreEscaped(SCRIPT)) }
     };
-    page_in(words.language.code(), &texts.title, STYLE, &body)
+    page_in(words.texts.language().code(), &texts.title, STYLE, &body)
 }
 
 /// Which columns are shown.
@@ -98,7 +98,7 @@ impl Shown<'_> {
         html! {
             td data-sort=(moment) {
                 @if let Some(wrong) = wrong {
-                    p { (self.words.told(wrong)) }
+                    p { (self.words.texts.told(wrong)) }
                 } @else if line.attempt.is_some() {
                     p { (texts.nothing) }
                 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_lesson::{Cap, Criterion, Evidence, Lesson, SPREADSHEET_MARK, What, spreadsheet_text};
+use vitriol_lesson::{Criterion, Evidence, SPREADSHEET_MARK, What, spreadsheet_text};
 use vitriol_run::{Blame, Failure, in_a_line};
 
 use super::graded::{Found, Graded};
@@ -121,18 +121,14 @@ impl Class {
             note,
             ..Line::default()
         };
-        let (graded, taken, lesson) = match ended {
+        let (graded, taken) = match ended {
             Ended::Failed(error) => {
                 self.failed += 1;
                 let why = words.grades.unread(error);
                 self.lines.push(line(Status::Failed, why));
                 return;
             }
-            Ended::Well {
-                graded,
-                taken,
-                lesson,
-            } => (graded, *taken, *lesson),
+            Ended::Well { graded, taken } => (graded, *taken),
         };
         self.taken += usize::from(taken);
         let attempts = match &graded.found {
@@ -154,10 +150,7 @@ impl Class {
             for incident in &attempt.incidents {
                 *incidents.entry(incident.what.kind()).or_insert(0) += 1;
             }
-            let cap = |it: &Cap| match it.evidence.first() {
-                Some(first) => format!("{} {}", it.text, words.told(first)),
-                None => it.text.clone(),
-            };
+            let caps = score.caps.iter().map(|it| words.texts.capped(it));
             let lines = score.lines.iter();
             let said = verified.map(|it| it.text()).unwrap_or_default();
             self.scenes.insert(attempt.scene.clone());
@@ -166,8 +159,8 @@ impl Class {
                 attempt: Some(number),
                 points: Some(score.points),
                 of: Some(score.of),
-                caps: score.caps.iter().map(|it| in_a_line(&cap(it))).collect(),
-                first_wrong: words.first_wrong(scored, lesson.zip(verdict)),
+                caps: caps.map(|it| in_a_line(&it)).collect(),
+                first_wrong: words.first_wrong(scored, verdict),
                 finished: Some(attempt.ending.is_some()),
                 criteria: lines.map(|it| (it.criterion, [it.points, it.of])).collect(),
                 incidents,
@@ -202,8 +195,6 @@ pub enum Ended<'a> {
         graded: &'a Graded,
         /// Whether an earlier call left that.
         taken: bool,
-        /// The lesson that it is judged by.
-        lesson: Option<&'a Lesson>,
     },
     /// It could not be.
     Failed(&'a str),

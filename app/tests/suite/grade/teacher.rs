@@ -166,10 +166,10 @@ fn a_row_says_what_went_wrong_first() {
     let here = folder.path();
     unpack(here);
     for (language, moment, nothing, taken) in [
-        ("en", "At 0.2 s: Spilt", "Nothing went wrong.", 0),
-        ("de", "Bei 0,2 s: ", "Nichts ging schief.", 4),
-        ("es", "A los 0,2 s: ", "Nada salió mal.", 4),
-        ("zh", "在 0.2 s：", "没有出现错误。", 4),
+        ("en", "At 0.2\u{a0}s: Spilt", "Nothing went wrong.", 0),
+        ("de", "Bei 0,2\u{a0}s: ", "Nichts ging schief.", 4),
+        ("es", "A los 0,2\u{a0}s: ", "Nada salió mal.", 4),
+        ("zh", "在 0.2\u{a0}s：", "没有出现错误。", 4),
     ] {
         let class = class_of(here, &["--language", language]);
         assert_eq!(class.taken, taken);
@@ -265,7 +265,7 @@ fn a_danger_before_any_incident_went_wrong_first() {
     // The pour without goggles began at 0.1 s, the spill at 0.2 s.
     assert_eq!(first.t_s, Some(0.1));
     assert!(ada.caps[0].starts_with(&first.text), "{:?}", ada.caps);
-    assert!(ada.caps[0].contains("Bei 0,1 s: "), "{:?}", ada.caps);
+    assert!(ada.caps[0].contains("Bei 0,1\u{a0}s: "), "{:?}", ada.caps);
     let (english, _) = graded(here, &[], nobody).unwrap();
     assert!(line(&english, "ada").caps[0].starts_with("At most "));
 }

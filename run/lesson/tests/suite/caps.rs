@@ -1,6 +1,8 @@
 //! What endangers caps the whole score, except where a lesson asks for it.
 
-use vitriol_lesson::{Attempt, Cause, Danger, Incident, Lesson, Rubric, Score, Skin, Texts, What};
+use vitriol_lesson::{
+    Attempt, Cause, Danger, Evidence, Incident, Language, Lesson, Rubric, Score, Skin, Texts, What,
+};
 
 use crate::said::{TEXTS, attempts, score};
 
@@ -71,6 +73,36 @@ fn the_wrong_order_with_hot_acid_on_the_skin_is_no_pass() {
     let said = vitriol_lesson::sentences(&wrong_order(), &score, &TEXTS);
     assert_eq!(said[0].text, order.text);
     assert_eq!(said[0].t_s, Some(1.9));
+}
+
+/// The moment stands between both in their language, with its decimal point. Chinese sentences follow one another without a space.
+#[test]
+fn a_cap_and_its_evidence_are_in_one_language() {
+    for (language, moment) in [
+        (Language::En, " At 1.9\u{a0}s: "),
+        (Language::De, " Bei 1,9\u{a0}s: "),
+        (Language::Es, " A los 1,9\u{a0}s: "),
+        (Language::Zh, "在 1.9\u{a0}s："),
+    ] {
+        let texts = Texts::of(language).unwrap();
+        let score = Score::of(&wrong_order(), &Rubric::default(), &texts);
+        let cap = &score.caps[0];
+        let capped = texts.capped(cap);
+        let evidence = &cap.evidence[0].text;
+        assert_eq!(capped, format!("{}{moment}{evidence}", cap.text));
+        assert_eq!(capped.contains(" At "), language == Language::En);
+    }
+}
+
+/// Evidence of the whole attempt has no moment. The name of a hole in it stays as it is.
+#[test]
+fn evidence_is_told_as_it_is() {
+    let told = |t_s| {
+        let text = "{time}, {text}".into();
+        TEXTS.told(&Evidence { t_s, text })
+    };
+    assert_eq!(told(None), "{time}, {text}");
+    assert_eq!(told(Some(0.25001)), "At 0.3\u{a0}s: {time}, {text}");
 }
 
 #[test]
@@ -206,7 +238,7 @@ fn older_results_are_read() {
 
 #[test]
 fn each_language_says_the_caps() {
-    for language in vitriol_lesson::Language::ALL {
+    for language in Language::ALL {
         let texts = Texts::of(language).unwrap();
         let score = Score::of(&wrong_order(), &Rubric::default(), &texts);
         assert!(score.caps.iter().all(|cap| cap.text.contains("40")));
