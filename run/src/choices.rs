@@ -18,8 +18,6 @@ pub struct Choice {
     pub key: char,
     /// Name of the scene.
     pub scene: &'static str,
-    /// What it is, for people.
-    pub title: &'static str,
     /// The order that it shows.
     pub order: Order,
     /// Name of the scene that shows the other order; `None` where there is none.
@@ -30,31 +28,24 @@ pub struct Choice {
 
 /// The scenes, those of the panel first.
 pub const CHOICES: [Choice; 11] = [
-    choice('1', "acid-into-water", "Correct: acid into water").correct("water-into-acid"),
-    choice('2', "water-into-acid", "Incorrect: water into acid").incorrect("acid-into-water"),
-    choice('3', "fume-hood", "Acid into water, in the fume hood"),
-    choice('4', "acid-on-glove", "Emergency: acid on a glove"),
-    choice('5', "two-flasks", "Water, two flasks"),
-    choice('6', "three-flasks", "Water, three flasks"),
-    choice(
-        '7',
-        "layer-and-swirl-right",
-        "Correct: acid under water, swirled",
-    )
-    .correct("layer-and-swirl"),
-    choice('8', "layer-and-swirl", "Incorrect: water on acid, swirled")
-        .incorrect("layer-and-swirl-right"),
+    choice('1', "acid-into-water").correct("water-into-acid"),
+    choice('2', "water-into-acid").incorrect("acid-into-water"),
+    choice('3', "fume-hood"),
+    choice('4', "acid-on-glove"),
+    choice('5', "two-flasks"),
+    choice('6', "three-flasks"),
+    choice('7', "layer-and-swirl-right").correct("layer-and-swirl"),
+    choice('8', "layer-and-swirl").incorrect("layer-and-swirl-right"),
     // It is in no pair, since no scene pours hot acid in the correct order. A second toggle leads to `water-into-acid`.
-    choice('9', "hot-acid", "Incorrect: water into hot acid").incorrect("acid-into-water"),
-    choice('0', "triple-dilution", "The paper's three flasks").off_panel(),
-    choice('p', "vr-dilution", "The paper's VR dilution").off_panel(),
+    choice('9', "hot-acid").incorrect("acid-into-water"),
+    choice('0', "triple-dilution").off_panel(),
+    choice('p', "vr-dilution").off_panel(),
 ];
 
-const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
+const fn choice(key: char, scene: &'static str) -> Choice {
     Choice {
         key,
         scene,
-        title,
         order: Order::Neither,
         counterpart: None,
         on_panel: true,
@@ -89,10 +80,20 @@ impl Choice {
             ..self
         }
     }
+
+    /// What follows its key or title: a sign that says the order by its shape. Nothing for a student whose lesson asks for the order.
+    pub fn sign(&self, in_lesson: bool) -> &'static str {
+        match self.order {
+            _ if in_lesson => "",
+            Order::Correct => " ✔",
+            Order::Incorrect => " ✖",
+            Order::Neither => "",
+        }
+    }
 }
 
 /// The choice of a scene of that name; `None` where it cannot be chosen.
-pub fn of(scene: &str) -> Option<&'static Choice> {
+fn of(scene: &str) -> Option<&'static Choice> {
     CHOICES.iter().find(|choice| choice.scene == scene)
 }
 
@@ -129,20 +130,18 @@ mod tests {
         );
     }
 
-    /// Titles say the order, and a counterpart shows the other one.
+    /// A scene that teaches an order has a counterpart, which shows the other one.
     #[test]
     fn a_counterpart_shows_the_other_order() {
         for choice in CHOICES {
-            let (begins, other) = match choice.order {
-                Order::Correct => ("Correct: ", Order::Incorrect),
-                Order::Incorrect => ("Incorrect: ", Order::Correct),
+            let other = match choice.order {
+                Order::Correct => Order::Incorrect,
+                Order::Incorrect => Order::Correct,
                 Order::Neither => {
                     assert_eq!(choice.counterpart, None, "{}", choice.scene);
-                    assert!(!choice.title.contains("orrect"), "{}", choice.title);
                     continue;
                 }
             };
-            assert!(choice.title.starts_with(begins), "{}", choice.title);
             let found = of(choice.counterpart.unwrap()).unwrap();
             assert_eq!(found.order, other, "{}", choice.scene);
         }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use vitriol_gpu::{Gpu, PlainLoader, Timestamps, vk};
+use vitriol_lesson::Texts;
 use vitriol_run::{Blame, Failure, Format, Scenes, device, emit, track};
 use vitriol_sound::Device;
 use vitriol_xr::Headset;
@@ -104,7 +105,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     if format == Format::Text && std::io::stdin().is_terminal() {
         let invites = !args.no_console && args.console.hub.is_none();
         let mode = options.course.as_ref().map(|it| it.mode);
-        eprintln!("{}", menu::lines(invites, mode));
+        let texts = Texts::of(args.language).other()?;
+        eprintln!("{}", menu::lines(&texts, invites, mode));
     }
     let course = options.course.as_ref();
     let rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();

@@ -26,6 +26,8 @@ pub struct Live {
     texts: Texts,
     /// The scene that the track begins with.
     scene: String,
+    /// Names of the flasks on the bench.
+    flasks: Vec<String>,
     time: SimulatedTime,
     controls: Controls,
     done: u64,
@@ -47,19 +49,28 @@ impl Live {
         console: &Console,
         scene: &str,
     ) -> Result<Self, Failure> {
-        Ok(Self {
+        let mut live = Self {
             inner,
             coder: Coder::new(&console.port)?,
             console: console.clone(),
             texts: Texts::of(console.language).other()?,
             scene: scene.to_owned(),
+            flasks: Vec::new(),
             time: SimulatedTime::default(),
             controls: Controls::default(),
             done: 0,
             due: None,
             took: 0.0,
             attempts: (0, Attempts::default()),
-        })
+        };
+        live.name_flasks();
+        Ok(live)
+    }
+
+    /// Names the flasks of the scene that is on the bench now.
+    fn name_flasks(&mut self) {
+        let glimpse = self.inner.glimpse();
+        self.flasks = glimpse.map_or_else(Vec::new, |it| self.texts.flasks(it.scene.0));
     }
 
     /// Does what was asked for, and waits for as long as time is held; then for the step's own time.
@@ -138,7 +149,7 @@ impl Live {
             controls,
             step: None,
             hints: List::default(),
-            readings: readings(scene, &self.texts, glimpse.flasks, glimpse.spilt),
+            readings: readings(scene, &self.flasks, glimpse.flasks, glimpse.spilt),
             incidents: attempts.incidents.clone(),
             incidents_of_attempt: attempts.of_present,
             incidents_so_far: attempts.so_far,
@@ -159,6 +170,9 @@ impl Experiment for Live {
         self.obey()?;
         let begun = Instant::now();
         let taken = self.inner.step(frame)?;
+        if taken.anew {
+            self.name_flasks();
+        }
         self.time.advance(taken.frame_time);
         self.took = begun.elapsed().as_secs_f64();
         let length = Duration::from_secs_f64(taken.frame_time / self.controls.rate);
@@ -210,5 +224,104 @@ impl Experiment for Live {
         self.controls.ended = true;
         self.tell();
         Ok(outcome)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::serve::{start, student};
+    use std::net::{Ipv4Addr, SocketAddr};
+    use vitriol_lesson::Language;
+    use vitriol_sim::scene::Scene;
+    use vitriol_sim::solver::Held;
+    use vitriol_xr::{FrameInfo, Hand, Pose};
+
+    /// Brings up its second scene with its first step, and simulates nothing.
+    struct Switching {
+        scenes: [Scene; 2],
+        at: usize,
+        held: [Held; 2],
+    }
+
+    impl Experiment for Switching {
+        fn step(&mut self, _: &PoseFrame) -> Result<Taken, Failure> {
+            self.at = 1;
+            Ok(Taken {
+                frame_time: 0.01,
+                anew: true,
+            })
+        }
+
+        fn sample(&mut self, _: f64) -> Result<Sample, Failure> {
+            Ok(Sample::default())
+        }
+
+        fn picture(&mut self, _: usize) -> Result<&[u8], Failure> {
+            Ok(&[])
+        }
+
+        fn heard(&mut self) -> Result<Heard, Failure> {
+            Ok(Heard::default())
+        }
+
+        fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
+            Ok(Vec::new())
+        }
+
+        fn judge(&mut self, _: Judging) {}
+
+        fn glimpse(&self) -> Option<Glimpse<'_>> {
+            Some(Glimpse {
+                scene: (&self.scenes[self.at], None),
+                flasks: &self.held,
+                spilt: [0.0; 2],
+                intensity: None,
+                events: &[],
+                instructions: &[],
+            })
+        }
+
+        fn outcome(&mut self) -> Result<Outcome, Failure> {
+            Err("it has none").other()
+        }
+    }
+
+    /// Flasks are named from the start on, which may be held, and those of a scene that was switched to by their own names.
+    #[test]
+    fn flasks_have_the_names_of_the_scene_on_the_bench() {
+        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
+        let hub = start(listen, false, Language::En).unwrap();
+        let told = student((Some("Ada"), &Texts::english().unwrap()), false);
+        let console = Console {
+            port: hub.student(told.clone()).unwrap().unwrap(),
+            student: told,
+            language: Language::En,
+        };
+        let scenes = ["acid-into-water", "acid-on-glove"];
+        let switching = Switching {
+            scenes: scenes.map(|name| Scene::builtin(name).unwrap()),
+            at: 0,
+            held: [Held::default(); 2],
+        };
+        let mut live = Live::new(Box::new(switching), &console, scenes[0]).unwrap();
+        let names = |live: &Live| {
+            let state = live.state(&live.inner.glimpse().unwrap());
+            let flasks = state.readings.flasks.iter();
+            flasks.map(|it| it.name.to_string()).collect::<Vec<_>>()
+        };
+        let first = ["Beaker with 98\u{a0}% acid", "Beaker with water"];
+        assert_eq!(names(&live), first);
+        let frame = PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: Pose::IDENTITY,
+            hands: [Hand::default(), Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        };
+        live.step(&frame).unwrap();
+        assert_eq!(names(&live), ["Tray", "Bottle with water"]);
     }
 }

@@ -1,7 +1,7 @@
 //! The state of a run's liquid and its incidents, as they are sent to the console.
 
 use vitriol_console::{Flask, Incident, List, Readings, Text};
-use vitriol_lesson::{Attempt, Event, Glass, Texts, What};
+use vitriol_lesson::{Attempt, Event, Texts, What};
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Held;
 
@@ -63,24 +63,23 @@ pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
     }
 }
 
-/// What is measured, at real size, of flasks as `texts` name them; `[bench, floor]` is what lies there, real m³.
+/// What is measured, at real size, of the flasks of those names; `[bench, floor]` is what lies there, real m³.
 pub fn readings(
     scene: &Scene,
-    texts: &Texts,
+    names: &[String],
     flasks: &[Held],
     [bench, floor]: [f64; 2],
 ) -> Readings {
-    let glassware = Glass::all(scene);
     let real = scene.scale.length_scale.powi(3);
     let boils = [Feature::Boiling, Feature::Evaporation].map(|it| scene.models(it));
     let superheats = flasks.iter().filter_map(|held| held.superheat);
     let [liquid, bubbles] = flasks.iter().fold([0.0, 0.0], |[liquid, bubbles], held| {
         [liquid + held.volume, bubbles + held.bubbles.volume]
     });
-    let named = scene.flasks.iter().zip(flasks);
+    let named = names.iter().zip(flasks);
     Readings {
-        flasks: List::clipped(named.map(|(flask, held)| Flask {
-            name: Text::clipped(&texts.flask(&glassware, &flask.name)),
+        flasks: List::clipped(named.map(|(name, held)| Flask {
+            name: Text::clipped(name),
             volume_m3: Some(real * held.volume),
             mean_c: held.temperature.map(f64::from),
             hottest_c: held.hottest.map(f64::from),

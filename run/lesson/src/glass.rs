@@ -123,6 +123,15 @@ impl Texts {
         self.named(glass, |forms| &forms.label)
     }
 
+    /// The names by themselves of the flasks of `scene`, in its order. They are the same for as long as it is on the bench, so that no frame
+    /// needs to make them.
+    pub fn flasks(&self, scene: &Scene) -> Vec<String> {
+        let glassware = Glass::all(scene);
+        let flasks = scene.flasks.iter();
+        let names = flasks.map(|flask| self.flask(&glassware, &flask.name));
+        names.collect()
+    }
+
     /// The name by itself of that flask of a scene.
     pub fn flask(&self, glassware: &Glassware, flask: &str) -> String {
         let glass = glassware.get(flask).copied();
@@ -183,10 +192,7 @@ mod tests {
 
     fn labels(scene: &str, language: Language) -> Vec<String> {
         let texts = Texts::of(language).unwrap();
-        let scene = Scene::builtin(scene).unwrap();
-        let glassware = Glass::all(&scene);
-        let names = scene.flasks.iter();
-        let labels = names.map(|it| texts.flask(&glassware, &it.name));
+        let labels = texts.flasks(&Scene::builtin(scene).unwrap()).into_iter();
         labels.map(|it| it.replace('\u{a0}', " ")).collect()
     }
 

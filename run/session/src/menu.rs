@@ -1,12 +1,12 @@
 //! What can be chosen while a session runs, on the panel and by the computer's keyboard.
 
-use vitriol_lesson::Mode;
 use vitriol_lesson::procedure::MOST_ANSWERS;
+use vitriol_lesson::{Mode, Texts};
 use vitriol_run::Action;
 
 use super::decision::Decision;
 use super::listing::can_ask;
-use vitriol_run::choices::{CHOICES, Choice};
+use vitriol_run::choices::CHOICES;
 
 /// Key of [`Action::Start`].
 pub const START: char = 'b';
@@ -52,11 +52,13 @@ pub fn decision(key: char) -> Option<Decision> {
     }
 }
 
-/// The keys and what they do, for a terminal; whether one lets a browser in, and how a lesson is gone through, if one is.
-pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
+/// The keys and what they do, for a terminal, with the scenes' titles in `texts`; whether one lets a browser in, and how a lesson is
+/// gone through, if one is.
+pub fn lines(texts: &Texts, invites: bool, lesson: Option<Mode>) -> String {
     let mut text = String::from("keys, each with Enter:");
-    for Choice { key, title, .. } in CHOICES {
-        text += &format!("\n  {key}  {title}");
+    for choice in CHOICES {
+        let (title, sign) = (texts.scene(choice.scene), choice.sign(lesson.is_some()));
+        text += &format!("\n  {}  {title}{sign}", choice.key);
     }
     for (key, does) in [
         (START, "from the start"),
@@ -90,6 +92,7 @@ pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use vitriol_lesson::Language;
     use vitriol_sim::scene::Scene;
 
     #[test]
@@ -124,12 +127,31 @@ mod tests {
 
     #[test]
     fn a_terminal_is_told_of_the_other_order() {
-        assert!(lines(false, None).contains("\n  t  the other order, of a pair\n"));
+        let texts = Texts::english().unwrap();
+        assert!(lines(&texts, false, None).contains("\n  t  the other order, of a pair\n"));
+    }
+
+    /// Scenes have their titles in the session's language, and signs of their order but where a lesson may ask for it.
+    #[test]
+    fn scenes_are_told_by_their_titles() {
+        let texts = Texts::of(Language::De).unwrap();
+        let free = lines(&texts, false, None);
+        let signed = [
+            "\n  1  Säure in Wasser ✔\n",
+            "\n  2  Wasser in Säure ✖\n",
+            "\n  3  Säure in Wasser, im Abzug\n",
+        ];
+        assert!(signed.iter().all(|it| free.contains(it)), "{free}");
+        let asked = lines(&texts, false, Some(Mode::Guided));
+        let plain = ["\n  1  Säure in Wasser\n", "\n  2  Wasser in Säure\n"];
+        assert!(plain.iter().all(|it| asked.contains(it)), "{asked}");
+        assert!(!asked.contains(['✔', '✖']), "{asked}");
     }
 
     #[test]
     fn a_lessons_keys_are_those_of_its_mode() {
-        let has = |mode, key: char| lines(false, mode).contains(&format!("\n  {key}  "));
+        let texts = Texts::english().unwrap();
+        let has = |mode, key: char| lines(&texts, false, mode).contains(&format!("\n  {key}  "));
         let keys = |mode| [HINT, SKIP, FINISH].map(|key| has(mode, key));
         assert_eq!(keys(None), [false; 3]);
         assert_eq!(keys(Some(Mode::Guided)), [true, true, false]);

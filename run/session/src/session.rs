@@ -257,6 +257,9 @@ impl Session {
         let made_for = (gpu, &*benches.library, benches.eyes.extent);
         let told = (options.language, options.record.as_deref());
         let instructor = Instructor::new(options.console, told, made_for)?;
+        let summary = Summary::new(options.language, rubric)?;
+        let mut readings = Readings::default();
+        readings.begin(run.world.scene(), summary.texts());
         Ok(Self {
             benches,
             choices: Choices::new(decisions),
@@ -267,10 +270,10 @@ impl Session {
             joints: [None; 2],
             steps: Steps::new(),
             run,
-            readings: Readings::default(),
+            readings,
             sounds,
             hints,
-            summary: Summary::new(options.language, rubric)?,
+            summary,
             checkpoints: Checkpoints::default(),
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],

@@ -16,7 +16,7 @@ use super::lesson;
 use crate::decision::Decision;
 use crate::info::{FlaskLine, Happened, Info, burns_text};
 use crate::menu;
-use vitriol_run::choices::{self, Choice, Order};
+use vitriol_run::choices::{self, Choice};
 use vitriol_run::texts::PanelTexts;
 
 const HEADING: f32 = 34.0;
@@ -296,15 +296,9 @@ fn legend(ui: &mut Ui, words: &PanelTexts) {
     ui.label(RichText::new(&words.tints).color(FAINT));
 }
 
-/// What stands on a scene's button. A sign says the order by its shape, since its word has no room there; but not to a student whose
-/// lesson asks for it.
+/// What stands on a scene's button. A sign says the order, since its word has no room there.
 pub(super) fn scene_text(choice: &Choice, words: &PanelTexts, in_lesson: bool) -> String {
-    let sign = match choice.order {
-        _ if in_lesson => "",
-        Order::Correct => " ✔",
-        Order::Incorrect => " ✖",
-        Order::Neither => "",
-    };
+    let sign = choice.sign(in_lesson);
     format!("{}{sign} {}", choice.key, words.button(choice.scene))
 }
 

@@ -209,7 +209,7 @@ impl Session {
         self.fade.close();
         let (bench, run) = (&self.benches.current, &mut self.run);
         self.pacing.begin(same, Some(drawn), bench, run)?;
-        self.readings.clear();
+        (self.readings).begin(self.run.world.scene(), self.summary.texts());
         self.sounds.begin();
         self.instructor.begin(self.run.events().len());
         self.checkpoints.forget();
@@ -462,7 +462,7 @@ impl Session {
         Info {
             scene: run.scene().to_owned(),
             title: texts.scene(run.scene()).to_owned(),
-            flasks: (self.readings).lines(scene, texts, |flask| run.world.is_broken(flask)),
+            flasks: (self.readings).lines(scene, |flask| run.world.is_broken(flask)),
             acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
             spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
             heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),

@@ -38,6 +38,8 @@ pub(super) struct Now<'a> {
     pub time: f64,
     /// The scene's name, and the scene.
     pub scene: (&'a str, &'a Scene),
+    /// Names of its flasks.
+    pub flasks: &'a [String],
     /// Name of the scene that is being prepared to follow it.
     pub coming: Option<&'a str>,
     /// Whether a hand holds something.
@@ -245,7 +247,7 @@ impl Instructor {
             hints: now.hints.clone(),
             readings: readings(
                 scene,
-                &self.texts,
+                now.flasks,
                 &self.flasks,
                 [now.spilt.bench, now.spilt.floor].map(|ml| 1e-6 * ml),
             ),

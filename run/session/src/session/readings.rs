@@ -1,7 +1,7 @@
 //! Temperature and acid of each flask's liquid, as the panel shows them.
 
 use glam::Vec3;
-use vitriol_lesson::{Glass, Texts};
+use vitriol_lesson::Texts;
 use vitriol_run::scenery::has_acid;
 use vitriol_sim::scene::{Flask, Scene};
 use vitriol_sim::solver::{Census, Held};
@@ -11,9 +11,11 @@ use crate::info::FlaskLine;
 /// Observations between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
 const EVERY: u64 = 9;
 
-/// The last reading.
+/// The last reading of a bench's flasks.
 #[derive(Default)]
 pub(super) struct Readings {
+    /// The flasks' names.
+    names: Vec<String>,
     /// The liquid in each flask at the last reading; empty before the first one.
     last: Vec<Held>,
     /// Observations so far.
@@ -29,26 +31,28 @@ impl Readings {
         self.looks += 1;
     }
 
-    /// Forgets readings of another bench.
-    pub fn clear(&mut self) {
-        *self = Self::default();
+    /// Takes in that a bench with that scene is in use, and forgets readings of another one.
+    pub fn begin(&mut self, scene: &Scene, texts: &Texts) {
+        *self = Self {
+            names: texts.flasks(scene),
+            ..Self::default()
+        };
     }
 
-    /// The panel's lines for a scene's flasks. One that hangs upside down, a funnel, has none: it holds nothing
+    /// Names of the flasks of the bench's scene, in its order.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The panel's lines for the flasks of the bench's scene. One that hangs upside down, a funnel, has none: it holds nothing
     /// for long.
-    pub fn lines(
-        &self,
-        scene: &Scene,
-        texts: &Texts,
-        is_broken: impl Fn(usize) -> bool,
-    ) -> Vec<FlaskLine> {
+    pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
         let acid = has_acid(scene);
-        let glassware = Glass::all(scene);
-        let line = |(index, flask): (usize, &Flask)| {
+        let line = |index: usize, name: &String| {
             let reading = self.last.get(index);
             let reading = reading.filter(|reading| reading.temperature.is_some());
             FlaskLine {
-                name: texts.flask(&glassware, &flask.name),
+                name: name.clone(),
                 broken: is_broken(index),
                 temperature: reading
                     .and_then(|reading| reading.temperature)
@@ -59,10 +63,10 @@ impl Readings {
             }
         };
         let upright = |flask: &Flask| (flask.stage_from_flask.orientation * Vec3::Y).y > 0.0;
-        let flasks = scene.flasks.iter().enumerate();
+        let flasks = scene.flasks.iter().zip(&self.names).enumerate();
         flasks
-            .filter(|(_, flask)| upright(flask))
-            .map(line)
+            .filter(|(_, (flask, _))| upright(flask))
+            .map(|(index, (_, name))| line(index, name))
             .collect()
     }
 }
@@ -88,19 +92,20 @@ mod tests {
         let names = ["Beaker with water", "Beaker with 98\u{a0}% acid"];
         let texts = Texts::english().unwrap();
         let mut readings = Readings::default();
-        let lines = readings.lines(&scene, &texts, |_| false);
+        readings.begin(&scene, &texts);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!(lines.len(), names.len());
         assert_eq!([0, 1].map(|at| lines[at].name.as_str()), names);
         assert_eq!((lines[0].temperature, lines[0].acid), (None, None));
         // An empty flask has no temperature.
         readings.last = vec![reading(7, 99.6, 0.956), reading(0, 0.0, 0.0)];
-        let lines = readings.lines(&scene, &texts, |_| false);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!((lines[0].temperature, lines[0].acid), (Some(100), Some(96)));
         assert_eq!((lines[1].temperature, lines[1].acid), (None, None));
         // Without the first, the second's line is still the second's.
         scene.flasks[0].stage_from_flask.orientation = Quat::from_rotation_x(3.0);
         readings.last[1] = reading(7, 20.4, 0.0);
-        let lines = readings.lines(&scene, &texts, |_| false);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!(
             (lines[0].name.as_str(), lines[0].temperature),
             (names[1], Some(20))
@@ -110,7 +115,29 @@ mod tests {
         for liquid in &mut scene.liquids {
             liquid.acid_fraction = 0.0;
         }
-        let lines = readings.lines(&scene, &texts, |flask| flask == 1);
+        let lines = readings.lines(&scene, |flask| flask == 1);
         assert_eq!((lines[0].acid, lines[0].broken), (None, true));
+    }
+
+    /// Names stay as they are while a bench is in use, whatever happens to its liquid, and are those of the bench that follows.
+    #[test]
+    fn names_are_those_of_the_bench_in_use() {
+        let mut scene = Scene::builtin("acid-into-water").unwrap();
+        let texts = Texts::english().unwrap();
+        let mut readings = Readings::default();
+        readings.begin(&scene, &texts);
+        scene.liquids.clear();
+        let lines = readings.lines(&scene, |_| false);
+        assert_eq!(lines[0].name, "Beaker with 98\u{a0}% acid");
+        readings.last = vec![reading(7, 20.0, 0.0)];
+        let next = Scene::builtin("acid-on-glove").unwrap();
+        readings.begin(&next, &texts);
+        let names = ["Tray", "Bottle with water", "Beaker with 98\u{a0}% acid"];
+        assert_eq!(readings.names(), names);
+        let lines = readings.lines(&next, |_| false);
+        assert_eq!(
+            (lines[0].name.as_str(), lines[0].temperature),
+            ("Tray", None)
+        );
     }
 }

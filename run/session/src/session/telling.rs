@@ -88,6 +88,7 @@ impl Session {
             frame: self.counts.frames,
             time: run.time().seconds(),
             scene: (run.scene(), run.world.scene()),
+            flasks: self.readings.names(),
             coming: self.benches.coming(),
             holds: Side::BOTH
                 .iter()
