@@ -18,6 +18,7 @@ mod tool;
 #[cfg(test)]
 mod tests;
 
+pub use base::missing_quote;
 pub use chemistry::{PaperChemistry, PhysicalChemistry};
 pub use contents::{Flask, Liquid, StartParticle};
 pub use error::SceneError;

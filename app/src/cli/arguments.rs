@@ -175,6 +175,14 @@ pub struct TrackArgs {
 /// Arguments of `vitriol scenes`.
 #[derive(Debug, Args)]
 pub struct ScenesArgs {
+    /// Language of the scenes' titles: en, de, es or zh
+    #[arg(
+        long,
+        value_name = "LANGUAGE",
+        default_value_t,
+        conflicts_with = "cost"
+    )]
+    pub language: Language,
     /// What each scene takes: passes of a frame, bytes a particle; and what is left
     /// out of it
     #[arg(long)]

@@ -33,7 +33,8 @@ pub struct LessonArgs {
         conflicts_with = "toml"
     )]
     pub film: Option<PathBuf>,
-    /// The film's track, by name or file; without it the built-in one that is made for the lesson's scene
+    /// The film's track, by name or file; one of another scene is told, and filmed in the lesson's. Without it the built-in one
+    /// that is made for the lesson's scene
     #[arg(long, value_name = "TRACK", requires = "film")]
     pub track: Option<String>,
     /// The film's trade of speed for accuracy
@@ -54,7 +55,7 @@ pub enum LessonCommand {
 /// Arguments of `vitriol lesson new`.
 #[derive(Debug, Args)]
 pub struct NewLessonArgs {
-    /// Its name, of a to z, 0 to 9 and -; the file NAME.toml is written here
+    /// Its name, of a to z, 0 to 9 and -, also with .toml behind it; the file NAME.toml is written here
     #[arg(value_name = "NAME")]
     pub name: String,
     /// The built-in lesson that it begins as (see `vitriol lesson`)

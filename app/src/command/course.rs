@@ -38,11 +38,12 @@ pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> 
 pub fn open(name: &str) -> Result<Lesson, Failure> {
     let builtin = Lesson::builtin_names();
     if !builtin.contains(&name) && files::is_absent(Path::new(name)) {
-        let known = files::suggested(name, &builtin);
-        return Err(format!(
-            "lesson {name:?}: no such file; {known}; or give a path"
-        ))
-        .input();
+        let file = format!("{name}.toml");
+        let meant = match files::is_absent(Path::new(&file)) {
+            true => format!("{}; or give a path", files::suggested(name, &builtin)),
+            false => format!("did you mean {file}?"),
+        };
+        return Err(format!("lesson {name:?}: no such file; {meant}")).input();
     }
     let read;
     let text = match Lesson::builtin_text(name) {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
-use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
+use vitriol_record::{Cap, KeepError, Keeping, Points, Scored, Session, keep};
 use vitriol_run::output::make_folder;
 use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure};
@@ -154,6 +154,13 @@ fn scored(attempt: &Attempt, rubric: &Rubric, texts: &Texts) -> Scored {
                 max: line.of.into(),
             })
             .collect();
+        let caps = score.caps.iter();
+        kept.caps = caps
+            .map(|cap| Cap {
+                danger: cap.danger.name().to_owned(),
+                max: cap.most.into(),
+            })
+            .collect();
     }
     Scored {
         attempt: attempt.clone(),
@@ -177,5 +184,49 @@ impl Kept {
         lines.extend(sent.refused.iter().map(|why| format!("refused {why}")));
         lines.extend(sent.stopped.iter().map(|why| format!("stopped {why}")));
         lines
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_lesson::{Content, Pour};
+
+    /// The class's file and the statements say why the points are capped.
+    #[test]
+    fn a_cap_is_kept_with_its_danger() {
+        let pour = |bare_face| Pour {
+            t_s: 0.1,
+            until_s: 5.1,
+            from: "acid".into(),
+            into: Some("water".into()),
+            volume_m3: 20e-6,
+            fastest_m3_s: 4e-6,
+            acid: 0.98,
+            met: Some(Content {
+                volume_m3: 160e-6,
+                acid: 0.0,
+                temperature_c: None,
+            }),
+            bare_face,
+        };
+        let caps = |bare_face| {
+            let attempt = Attempt {
+                pours: vec![pour(bare_face)],
+                ..Attempt::default()
+            };
+            let texts = Texts::english().unwrap();
+            let kept = scored(&attempt, &Rubric::default(), &texts).score.unwrap();
+            (kept.max(), kept.caps)
+        };
+        let (of, capped) = caps(true);
+        let [cap] = &capped[..] else {
+            unreachable!("{capped:?}");
+        };
+        assert_eq!(cap.danger, "no-goggles");
+        // 60 of 100, rounded down to whole points: both are whole, so that no bit differs.
+        assert_eq!(cap.max, (60.0 * of / 100.0).floor());
+        assert_eq!(caps(false).1, []);
     }
 }

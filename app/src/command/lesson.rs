@@ -7,10 +7,13 @@ mod subtitles;
 use serde::Serialize;
 use vitriol_lesson::{Language, Lesson, Texts};
 use vitriol_run::units::count;
-use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit};
+use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit, escaped};
 
 use crate::cli::{LessonArgs, LessonCommand};
 use crate::command::course::open;
+
+/// Sum of a lesson's points that makes a percentage of them.
+const PERCENT: u32 = 100;
 
 /// What is printed of a lesson.
 #[derive(Debug, Serialize)]
@@ -86,10 +89,18 @@ pub fn run(
         return emit(format, &text.input()?, |text| (*text).to_owned());
     }
     let lesson = open(name)?;
+    let told = of(&lesson, args.language, &texts);
+    if told.points != PERCENT {
+        tracing::warn!(
+            "{}: its points add up to {}; with {PERCENT} in all they are a percentage, as those of the built-in lessons are",
+            escaped(name),
+            told.points
+        );
+    }
     if let Some(film) = &args.film {
         return film::make((args, film), &lesson, format, prepare);
     }
-    emit(format, &of(&lesson, args.language, &texts), |told| {
+    emit(format, &told, |told| {
         let mut text = format!(
             "{}\n{}\n{}\nscene {}, {}\n",
             modes(told, &lesson),

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_gpu::Timestamps;
+use vitriol_lesson::Texts;
 use vitriol_run::passes::anatomy;
 use vitriol_run::units::{count, grouped, length, three_digits, with_unit};
 use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit};
@@ -17,6 +18,8 @@ use crate::report::{SceneStatement, SolverStatement};
 struct SceneInfo {
     #[serde(flatten)]
     scene: SceneStatement,
+    /// Its title in the language that was asked for.
+    title: String,
     description: String,
     flasks: Vec<String>,
     /// Under each preset, or that which was asked for.
@@ -41,8 +44,9 @@ pub fn run(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
     if args.cost {
         return cost(args, format);
     }
+    let texts = Texts::of(args.language).other()?;
     let names = Scene::builtin_names().into_iter();
-    let scenes = names.map(|name| look_into(name, args.preset));
+    let scenes = names.map(|name| look_into((name, texts.scene(name)), args.preset));
     let scenes: Vec<SceneInfo> = scenes.collect::<Result<_, _>>()?;
     emit(format, &BTreeMap::from([("scenes", &scenes)]), |_| {
         let texts: Vec<String> = scenes.iter().map(describe).collect();
@@ -140,7 +144,7 @@ fn describe_cost(cost: &SceneCost) -> String {
     )
 }
 
-fn look_into(name: &str, asked: Option<Preset>) -> Result<SceneInfo, Failure> {
+fn look_into((name, title): (&str, &str), asked: Option<Preset>) -> Result<SceneInfo, Failure> {
     let scene = Scene::builtin(name).other()?;
     let presets = Preset::ALL.into_iter();
     let presets = presets.filter(|preset| asked.is_none_or(|asked| asked == *preset));
@@ -155,6 +159,7 @@ fn look_into(name: &str, asked: Option<Preset>) -> Result<SceneInfo, Failure> {
     });
     Ok(SceneInfo {
         scene: SceneStatement::of(name, &scene),
+        title: title.to_owned(),
         description: scene
             .description
             .split_whitespace()
@@ -173,8 +178,9 @@ fn describe(info: &SceneInfo) -> String {
         scene.models.join(", ")
     };
     let mut text = format!(
-        "{}\n  {}\n  flasks {}; models {}\n  h/d {}, frame {} ms, g {} m/s², length scale {}\n",
+        "{}: {}\n  {}\n  flasks {}; models {}\n  h/d {}, frame {} ms, g {} m/s², length scale {}\n",
         scene.name,
+        info.title,
         info.description,
         info.flasks.join(", "),
         models,

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command as Process, Stdio};
 
 use vitriol::command::grade::{Status, Verdict};
-use vitriol_lesson::{Attempt, Event};
+use vitriol_lesson::{Attempt, Event, Language};
 use vitriol_record::{Keeping, Scored, Session, Timestamp, keep};
 use vitriol_run::{Failure, Setup};
 use vitriol_tests::program::Program;
@@ -87,6 +87,13 @@ fn what_is_no_class_is_refused() {
     assert!(!out.exists());
     let none = ["--class", "nowhere.sqlite"];
     assert!(refused(&a, &none).contains("nowhere.sqlite"));
+    // A folder that is not there, which other programs would take for an empty class.
+    let absent = refused(&folder.path().join("nowhere"), &to);
+    assert!(
+        absent.contains("nowhere: no such folder") && absent.contains(".mcap"),
+        "{absent}"
+    );
+    assert!(!out.exists());
     let (class, failure) = graded(&folder.path().join("nobody.mcap"), &[], nobody).unwrap();
     assert_eq!((class.failed, failure.unwrap().exit_code()), (1, 2));
 }
@@ -288,6 +295,19 @@ fn a_simulation_confirms_or_refutes() {
     }
     let again = [&more[..], &["--verify"]].concat();
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
+    // The page says so too, in words; nowhere does it where nobody asked.
+    let texts = vitriol_run::texts::Texts::of(Language::En).unwrap();
+    let texts = texts.grades.verified;
+    let page = fs::read_to_string(out.join("grades.html")).unwrap();
+    for (text, rows) in [
+        (&texts.to_the_bit, 1),
+        (&texts.within_tolerance, 1),
+        (&texts.differs, 2),
+    ] {
+        let cell = format!("<td>{text}</td>");
+        assert_eq!(page.matches(&cell).count(), rows, "{cell}: {page}");
+    }
+    assert!(page.contains(&texts.head));
     // For another device it is simulated anew, as by another tolerance.
     let elsewhere = [&again[..], &["--device", "1"]].concat();
     let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
@@ -301,6 +321,8 @@ fn a_simulation_confirms_or_refutes() {
     // What was only read is not.
     fs::remove_dir_all(&out).unwrap();
     read(here, &more);
+    let page = fs::read_to_string(out.join("grades.html")).unwrap();
+    assert!(!page.contains(&texts.head), "{page}");
     let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
     assert_eq!(graded(here, &again, toy).unwrap().0.taken, 0);
 }

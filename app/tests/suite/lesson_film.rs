@@ -76,6 +76,24 @@ fn a_lesson_has_a_film_with_subtitles() {
         "none",
     ];
     assert_eq!(vitriol(here, &nowhere).status.code(), Some(2));
+    // One that is made for another scene is filmed all the same, and is told; no device of that name makes the film here.
+    let elsewhere = [
+        "lesson",
+        "wrong-order-hot",
+        "--film",
+        "other/none.mp4",
+        "--track",
+        "still.mcap",
+        "--device",
+        "Voodoo",
+    ];
+    let none = vitriol(here, &elsewhere);
+    assert!(!none.status.success());
+    let said = String::from_utf8(none.stderr).unwrap();
+    assert!(
+        said.contains("still.mcap: the track was made in the scene acid-into-water"),
+        "{said}"
+    );
     // No built-in track is made for its scene.
     let own = vitriol(here, &["lesson", "wrong-order-hot", "--toml"]);
     let own = String::from_utf8(own.stdout).unwrap();

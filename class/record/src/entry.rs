@@ -54,6 +54,17 @@ pub struct Score {
     pub passed: Option<bool>,
     /// The points by criterion.
     pub points: Vec<Points>,
+    /// What caps the points, the lowest cap first.
+    pub caps: Vec<Cap>,
+}
+
+/// A cap of a score, for a danger that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cap {
+    /// The danger, in a word such as `no-goggles`.
+    pub danger: String,
+    /// Most points that it leaves.
+    pub max: f64,
 }
 
 /// Points of one criterion.
@@ -89,6 +100,7 @@ impl Score {
             max,
             passed: None,
             points: Vec::new(),
+            caps: Vec::new(),
         })
     }
 

@@ -14,7 +14,7 @@ mod pseudonym;
 pub mod store;
 pub mod xapi;
 
-pub use entry::{Entry, Points, Score, ScoreError, Session};
+pub use entry::{Cap, Entry, Points, Score, ScoreError, Session};
 pub use jiff::Timestamp;
 pub use keep::{KeepError, Keeping, Kept, Scored, keep};
 pub use pseudonym::{Pseudonym, PseudonymError};

@@ -128,6 +128,7 @@ impl Store {
                     .pragma_update(None, "user_version", schema::VERSION)
                     .of(&path)?;
                 change.execute_batch(schema::TABLES).of(&path)?;
+                change.execute_batch(schema::CAPS).of(&path)?;
                 let class = Uuid::new_v4().to_string();
                 change
                     .execute("INSERT INTO class VALUES (?1)", [class])
@@ -137,6 +138,14 @@ impl Store {
         }
         if number(&self.connection, "application_id").of(&path)? != schema::APPLICATION {
             return Err(StoreError::NotOurs { path });
+        }
+        if number(&self.connection, "user_version").of(&path)? == schema::WITHOUT_CAPS {
+            let change = self.change()?;
+            change.execute_batch(schema::CAPS).of(&path)?;
+            change
+                .pragma_update(None, "user_version", schema::VERSION)
+                .of(&path)?;
+            change.commit().of(&path)?;
         }
         let found = number(&self.connection, "user_version").of(&path)?;
         if found != schema::VERSION {

@@ -29,6 +29,15 @@ pub enum Danger {
 impl Danger {
     /// All dangers.
     pub const ALL: [Self; 3] = [Self::WrongOrder, Self::AcidOnSkin, Self::NoGoggles];
+
+    /// Its name, as in JSON and in a lesson's file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WrongOrder => "wrong-order",
+            Self::AcidOnSkin => "acid-on-skin",
+            Self::NoGoggles => "no-goggles",
+        }
+    }
 }
 
 /// By danger, the most points out of 100 that an attempt can have in which it happened; 100: no cap.

@@ -123,8 +123,8 @@ impl Texts {
         self.named(glass, |forms| &forms.label)
     }
 
-    /// The names by themselves of the flasks of `scene`, in its order. They are the same for as long as it is on the bench, so that no frame
-    /// needs to make them.
+    /// The names by themselves of the flasks of `scene`, in its order. They are the same for as long as it is on the bench, so that
+    /// no frame needs to make them.
     pub fn flasks(&self, scene: &Scene) -> Vec<String> {
         let glassware = Glass::all(scene);
         let flasks = scene.flasks.iter();

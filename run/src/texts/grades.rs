@@ -26,9 +26,25 @@ pub struct GradesTexts {
     pub nothing: String,
     /// Where an attempt has no end.
     pub broken_off: String,
+    /// Texts on simulating a recording again.
+    pub verified: VerifiedTexts,
     unread: String,
     otherwise: String,
     counted: String,
+}
+
+/// Texts on whether a simulation finds what a recording says.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VerifiedTexts {
+    /// Head of the column.
+    pub head: String,
+    /// All is the same, to the bit.
+    pub to_the_bit: String,
+    /// All is the same within the tolerance, on another device.
+    pub within_tolerance: String,
+    /// Something is not.
+    pub differs: String,
 }
 
 impl GradesTexts {

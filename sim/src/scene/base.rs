@@ -20,8 +20,28 @@ pub(super) fn read(text: &str, file: &str) -> Result<SceneFile, SceneError> {
     };
     read.map_err(|error| SceneError::Syntax {
         file: file.to_owned(),
-        message: error.to_string().trim_end().to_owned(),
+        message: message(&error, text),
     })
+}
+
+/// The parser's message, or ours for a quote that is missing, with its line.
+fn message(error: &toml::de::Error, text: &str) -> String {
+    let (quote, span) = (missing_quote(error.message()), error.span());
+    let (Some(problem), Some(span)) = (quote, span) else {
+        return error.to_string().trim_end().to_owned();
+    };
+    let before = text.bytes().take(span.start);
+    let line = before.filter(|byte| *byte == b'\n').count() + 1;
+    format!("line {line}: {problem}")
+}
+
+/// Sentence for a parser's message of a text that has no closing quote; `None` for another message. The parser's own is for people who
+/// know its grammar.
+pub fn missing_quote(message: &str) -> Option<&'static str> {
+    let (what, expected) = message.split_once(", expected ")?;
+    let of_text = what.starts_with("invalid ") && what.ends_with(" string");
+    (of_text && ["`\"`", "`'`"].contains(&expected))
+        .then_some("a quote is missing: a text stands between two of them, such as \"text\"")
 }
 
 impl Scene {

@@ -53,16 +53,17 @@ impl OfLesson {
         }
     }
 
-    /// In a few words: points, and what was not done or kept.
-    pub fn text(&self) -> String {
+    /// Points, of how many.
+    pub fn mark(&self) -> String {
+        format!("{} of {}", self.points, self.of)
+    }
+
+    /// What was not done or kept, in a few words; empty where all was.
+    pub fn unmet(&self) -> String {
         let bad = self.items.iter();
         let bad = bad.filter(|it| !["done", "kept"].contains(&it.became));
         let bad: Vec<String> = bad.map(|it| format!("{} {}", it.id, it.became)).collect();
-        let points = format!("lesson {} of {}", self.points, self.of);
-        match bad.is_empty() {
-            true => points,
-            false => format!("{points} ({})", bad.join(", ")),
-        }
+        bad.join(", ")
     }
 }
 

@@ -6,6 +6,7 @@ use vitriol_lesson::Evidence;
 use vitriol_run::page::page_in;
 
 use super::table::{Class, Line};
+use super::verify::Verdict;
 use super::wrong::Words;
 
 const STYLE: &str = include_str!("grades.css");
@@ -21,6 +22,7 @@ pub fn html(class: &Class, words: &Words) -> String {
         words,
         scenes: class.scenes.len() > 1,
         lessons: !class.lessons.is_empty(),
+        verified: class.lines.iter().any(|it| it.verified.is_some()),
     };
     let body = html! {
         main {
@@ -47,6 +49,7 @@ struct Shown<'a> {
     words: &'a Words,
     scenes: bool,
     lessons: bool,
+    verified: bool,
 }
 
 impl Shown<'_> {
@@ -56,10 +59,11 @@ impl Shown<'_> {
             tr {
                 (head(&texts.student, false))
                 @if self.scenes { (head(&texts.scene, false)) }
+                @if self.lessons { (head(&texts.lesson, true)) }
                 (head(&texts.points, true))
                 (head(&texts.first_wrong, true))
                 (head(&texts.cap, false))
-                @if self.lessons { (head(&texts.lesson, true)) }
+                @if self.verified { (head(&texts.verified.head, false)) }
             }
         }
     }
@@ -76,13 +80,25 @@ impl Shown<'_> {
                     }
                 }
                 @if self.scenes { td { (self.words.texts.scene(&line.scene)) } }
-                (points(line.points.zip(line.of)))
-                (self.first_wrong(line))
-                td { @for cap in &line.caps { p { (cap) } } }
                 @if self.lessons {
                     (points(lesson.map(|it| (it.points, it.of))))
                 }
+                (points(line.points.zip(line.of)))
+                (self.first_wrong(line))
+                td { @for cap in &line.caps { p { (cap) } } }
+                @if self.verified { td { (self.verdict(line)) } }
             }
+        }
+    }
+
+    /// Whether a simulation found what the recording says.
+    fn verdict(&self, line: &Line) -> &str {
+        let texts = &self.words.grades.verified;
+        match line.verified {
+            None => "–",
+            Some(Verdict::ToTheBit) => &texts.to_the_bit,
+            Some(Verdict::WithinTolerance) => &texts.within_tolerance,
+            Some(Verdict::Differs) => &texts.differs,
         }
     }
 

@@ -96,6 +96,7 @@ pub enum Status {
 }
 
 impl Status {
+    /// As in JSON.
     fn name(self) -> &'static str {
         match self {
             Self::Graded => "graded",
@@ -202,7 +203,21 @@ pub enum Ended<'a> {
 
 /// The table for people.
 pub fn text(class: &Class) -> String {
-    let mut rows = vec![["student", "points", "verified", "incidents and notes"].map(String::from)];
+    let lessons = !class.lessons.is_empty();
+    let verified = class.lines.iter().any(|it| it.verified.is_some());
+    let points = match lessons {
+        true => "program's points",
+        false => "points",
+    };
+    let heads = [
+        "student",
+        "scene",
+        "lesson's points",
+        points,
+        "verified",
+        "incidents and notes",
+    ];
+    let mut rows = vec![heads.map(String::from)];
     let mut before = None;
     for line in &class.lines {
         let student = in_a_line(&line.student);
@@ -212,10 +227,12 @@ pub fn text(class: &Class) -> String {
         let points = match (line.points, line.of) {
             (Some(_), Some(0)) => "-".into(),
             (Some(points), Some(of)) => format!("{points} of {of}"),
+            _ if line.status == Status::Otherwise => "not graded".into(),
             _ => line.status.name().into(),
         };
         let mut notes = line.caps.clone();
-        notes.extend(line.lesson.as_ref().map(OfLesson::text));
+        let lesson = line.lesson.as_ref();
+        notes.extend(lesson.map(OfLesson::unmet).filter(|it| !it.is_empty()));
         notes.extend(line.incidents.iter().map(|(kind, count)| match count {
             1 => (*kind).to_owned(),
             _ => format!("{kind} ×{count}"),
@@ -226,32 +243,33 @@ pub fn text(class: &Class) -> String {
         notes.extend((!line.note.is_empty()).then(|| in_a_line(&line.note)));
         rows.push([
             if again { String::new() } else { student },
+            in_a_line(&line.scene),
+            lesson.map_or_else(String::new, OfLesson::mark),
             points,
             line.verified.map_or("", Verdict::name).to_owned(),
             notes.join(", "),
         ]);
     }
-    let mut widths = [0; 3];
+    let mut widths = [0; 5];
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {
             *width = (*width).max(cell.chars().count());
         }
     }
     let mut text = String::new();
-    for [student, points, verified, notes] in &rows {
-        let [a, b, c] = widths;
+    let shown = [true, class.scenes.len() > 1, lessons, true, verified];
+    for [cells @ .., notes] in &rows {
         // Writing to a string cannot fail.
-        if c == "verified".len() && class.lines.iter().all(|it| it.verified.is_none()) {
-            let _ = writeln!(text, "{student:<a$}  {points:<b$}  {notes}");
-        } else {
-            let _ = writeln!(text, "{student:<a$}  {points:<b$}  {verified:<c$}  {notes}");
+        for ((cell, width), _) in cells.iter().zip(widths).zip(shown).filter(|it| it.1) {
+            let _ = write!(text, "{cell:<width$}  ");
         }
+        let _ = writeln!(text, "{notes}");
     }
     let scenes: Vec<String> = class.scenes.iter().map(|it| in_a_line(it)).collect();
     let by = if scenes.is_empty() { "" } else { " by " };
     let _ = writeln!(
         text,
-        "\n{} graded{by}{}, {} made otherwise, {} failed; {} of them as an earlier call left them",
+        "\n{} graded{by}{}, {} not graded, {} failed; {} of them as an earlier call left them",
         class.graded,
         scenes.join(", "),
         class.otherwise,

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use vitriol_run::{Blame, Failure, in_a_line};
+use vitriol_xr::files;
 
 use super::file_name;
 use crate::command::stem;
@@ -39,11 +40,19 @@ impl Tracks {
     /// The files that are named, and those in the folders that are. What an earlier call left in `out` is no part of a class.
     ///
     /// # Errors
-    /// [`Failure::Input`] where a folder has no recordings, [`Failure::Other`] where it cannot be listed.
+    /// [`Failure::Input`] where a folder is not there or has no recordings, [`Failure::Other`] where it cannot be listed.
     pub fn of(named: &[PathBuf], out: Option<&Path>) -> Result<Self, Failure> {
         let mut tracks = Self::default();
         let out = out.and_then(|it| it.canonicalize().ok());
         for path in named {
+            // A recording that is not there is a line of the table, as another bad file is.
+            if files::is_absent(path) && !is_track(path) {
+                return Err(format!(
+                    "{}: no such folder; name one with recordings, or recordings themselves, which end in .mcap",
+                    path.display()
+                ))
+                .input();
+            }
             if !path.is_dir() {
                 tracks.all.push(Named {
                     file: path.clone(),

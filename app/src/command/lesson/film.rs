@@ -10,15 +10,16 @@ use vitriol_lesson::{Attempt, Language, Lesson, Mode, Texts};
 use vitriol_run::progress::Runs;
 use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
-    Setup, Subtitles, emit, in_a_line, output,
+    Setup, Subtitles, emit, escaped, in_a_line, output,
 };
 use vitriol_shaders::Library;
-use vitriol_xr::track::{TrackSource, builtin, load};
+use vitriol_xr::track::{TrackMetadata, TrackSource, builtin, load};
 
 use super::subtitles::{JudgedTrack, SubtitleWords, cues};
 use crate::cli::LessonArgs;
 use crate::command::course;
 use crate::command::plan::{Ask, ReplayPlan};
+use crate::command::recorded::is_recording;
 use vitriol_run::texts::Texts as Around;
 
 /// How the film goes through a lesson, whatever its modes: each step is shown while it is to be done.
@@ -66,6 +67,9 @@ pub fn make(
         ..Ask::default()
     };
     let plan = ReplayPlan::new(&ask)?;
+    if let Some(other) = made_elsewhere(&plan.track.metadata, &plan.name) {
+        tracing::warn!("{}: {other}", escaped(&track));
+    }
     let mut experiment = prepare(&Setup {
         scene: &plan.scene,
         scene_name: &plan.name,
@@ -118,6 +122,19 @@ pub fn make(
             in_a_line(&filmed.film),
             points.unwrap_or_default(),
             filmed.subtitles.join(", ")
+        )
+    })
+}
+
+/// That a track was made in another scene than that of its film, as a replay says it of a recording: hands may miss what they reach for.
+/// `None` of one that names no scene, and of a recording, of which the plan says it.
+fn made_elsewhere(made: &TrackMetadata, scene: &str) -> Option<String> {
+    let other = !is_recording(made) && !made.scene.is_empty() && made.scene != scene;
+    other.then(|| {
+        format!(
+            "the track was made in the scene {}, and the film is of {}: the hands may miss glasses and tools; name a track of that scene",
+            in_a_line(&made.scene),
+            in_a_line(scene)
         )
     })
 }
@@ -197,6 +214,19 @@ mod tests {
         for name in ["wrong-order", "wrong-order-layered", "wrong-order-hot"] {
             assert_eq!(usual(name).unwrap(), name);
         }
+    }
+
+    #[test]
+    fn a_track_of_another_scene_is_told() {
+        let mut made = load("two-flasks").unwrap().metadata;
+        assert_eq!(made_elsewhere(&made, "two-flasks"), None);
+        let other = made_elsewhere(&made, "hot-acid").unwrap();
+        assert!(
+            other.contains("in the scene two-flasks") && other.contains("of hot-acid"),
+            "{other}"
+        );
+        made.scene.clear();
+        assert_eq!(made_elsewhere(&made, "hot-acid"), None);
     }
 
     /// Of ISO 639-2's two codes that of the language's own name.

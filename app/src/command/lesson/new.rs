@@ -25,7 +25,9 @@ struct Written {
 /// [`Failure::Input`] where there is no such lesson to begin with, none may have that name, or the file exists; [`Failure::Other`] where it
 /// cannot be written.
 pub fn write(args: &NewLessonArgs, format: Format) -> Result<(), Failure> {
-    let (name, from) = (&args.name, &args.from);
+    let (name, from) = (args.name.as_str(), &args.from);
+    // Who gives the file's name gets that file.
+    let name = name.strip_suffix(".toml").unwrap_or(name);
     let text = match Lesson::template(name, from, args.language) {
         Err(LessonError::NotFound { .. }) => {
             let known = files::suggested(from, &Lesson::builtin_names());
@@ -37,7 +39,7 @@ pub fn write(args: &NewLessonArgs, format: Format) -> Result<(), Failure> {
     write_new(&path, text.as_bytes())?;
     let written = Written {
         file: path.display().to_string(),
-        name: name.clone(),
+        name: name.to_owned(),
         from: from.clone(),
         language: args.language.code(),
     };

@@ -62,10 +62,17 @@ fn a_new_lesson_checks_and_overwrites_nothing() {
     assert_eq!(fs::read(&file).unwrap(), before);
     let misspelt = ["lesson", "new", "other", "--from", "dilutte"];
     refuses(here, &misspelt, 2, &["--from", "did you mean dilute?"]);
+    // Of a lesson's own file the ending may be left out, or be there already.
+    refuses(here, &["lesson", "own"], 2, &["did you mean own.toml?"]);
+    assert_eq!(
+        object(here, &["lesson", "new", "mine.toml"])["file"],
+        "mine.toml"
+    );
+    assert_eq!(object(here, &["lesson", "mine.toml"])["name"], "mine");
     for wrong in ["../other", "Other", "dilute"] {
         refuses(here, &["lesson", "new", wrong], 2, &[wrong, "a to z"]);
     }
-    assert_eq!(fs::read_dir(here).unwrap().count(), lessons.len() * 4 + 1);
+    assert_eq!(fs::read_dir(here).unwrap().count(), lessons.len() * 4 + 2);
 }
 
 /// The lesson of the page is good, and with two faults the program says what the page says that it says.
@@ -79,6 +86,18 @@ fn the_lesson_of_the_page_is_good() {
     let shown = object(here, &["lesson", "my-lesson.toml"]);
     assert_eq!(shown["points"], 100);
     assert_eq!(shown["languages"], serde_json::json!(["en"]));
+    // Points that are no percentage are no fault, and are told.
+    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    assert_eq!(text(&told.stderr), "");
+    let more = lesson.replacen("points = 60", "points = 70", 1);
+    fs::write(here.join("my-lesson.toml"), more).unwrap();
+    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    assert!(told.status.success());
+    let warned = text(&told.stderr);
+    assert!(
+        warned.contains("my-lesson.toml: its points add up to 110"),
+        "{warned}"
+    );
     let faulty = lesson.replacen("points = 20", "points = 2000", 1).replacen(
         "into = \"target\"",
         "into = \"beaker\"",

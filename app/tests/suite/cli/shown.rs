@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use vitriol_lesson::{Language, Texts};
+
 use super::{object, refuses, text, vitriol};
 
 #[test]
@@ -44,7 +46,7 @@ fn lessons_are_listed_shown_and_checked() {
     fs::write(&file, own).unwrap();
     assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);
     fs::write(&file, own.replace("into = \"target\"", "into = \"vase\"")).unwrap();
-    let parts = &["own.toml", "step[3].condition.poured.into", "target"];
+    let parts = &["own.toml", "step 4, condition.poured.into", "target"];
     refuses(here, &["lesson", "own.toml"], 2, parts);
     let stand_in = ["vr", "--no-console", "--stand-in", "two-flasks", "--lesson"];
     refuses(here, &[&stand_in[..], &["own.toml"]].concat(), 2, parts);
@@ -99,6 +101,19 @@ fn scenes_state_their_scale() {
             }
         }
     }
+
+    // Titles are in the language that is asked for.
+    let list = object(folder.path(), &["scenes", "--language", "de"]);
+    let german = Texts::of(Language::De).unwrap();
+    for scene in list["scenes"].as_array().unwrap() {
+        let name = scene["name"].as_str().unwrap();
+        assert_eq!(scene["title"], german.scene(name));
+        assert_ne!(scene["title"], name);
+    }
+    let told = vitriol(folder.path(), &["scenes", "--language", "zh"]);
+    let chinese = Texts::of(Language::Zh).unwrap();
+    let head = format!("hot-acid: {}\n", chinese.scene("hot-acid"));
+    assert!(text(&told.stdout).contains(&head), "{head}");
 
     let typo = "name = \"x\"\ngravitty = 1\n";
     fs::write(folder.path().join("typo.toml"), typo).unwrap();

@@ -151,7 +151,7 @@ fn a_class_is_graded_by_its_lesson() {
     let ada = line(&class, "ada").lesson.as_ref().unwrap();
     assert_eq!((ada.points, ada.of), (10 + 5 + 7 + 10 + 4 + 4 + 2, 100));
     assert!(
-        ada.text()
+        ada.unmet()
             .contains("put-down missed, stir missed, measure missed, concentration missed, wipe missed, clean broken")
     );
     // 37 of 70, which the rules' points are in proportion to.
@@ -162,6 +162,22 @@ fn a_class_is_graded_by_its_lesson() {
         line(&class, "ada").points,
         line(&read(here, &[]), "ada").points
     );
+
+    // The lesson's points come first, for people and in the browser.
+    let output = VITRIOL.run(here, &[&["grade", "."], &BY[..]].concat());
+    let told = String::from_utf8(output.stdout).unwrap();
+    let heads: Vec<_> = told.lines().next().unwrap().split("  ").collect();
+    let heads: Vec<_> = heads.into_iter().map(str::trim).collect();
+    assert!(heads.starts_with(&["student", "lesson's points"]), "{told}");
+    let row = told.lines().find(|it| it.starts_with("ada ")).unwrap();
+    let first = row.strip_prefix("ada").unwrap().trim_start();
+    assert!(first.starts_with("42 of 100 "), "{row}");
+    let row = told.lines().find(|it| it.starts_with("none ")).unwrap();
+    assert!(row.contains("not graded"), "{row}");
+    assert!(!told.contains("otherwise"), "{told}");
+    let page = fs::read_to_string(out.join("grades.html")).unwrap();
+    let at = |text: &str| page.find(text).unwrap();
+    assert!(at("42 / 100") < at(" / 85"), "{page}");
 
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     let table = table.trim_start_matches('\u{feff}');

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use vitriol::command::grade::{Class, Status};
-use vitriol_lesson::{Event, Lesson};
+use vitriol_lesson::{Event, Language, Lesson, Texts};
 use vitriol_sim::scene::Scene;
 #[cfg(target_os = "linux")]
 use vitriol_tests::devtools::Tab;
@@ -108,6 +108,93 @@ fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
     assert_eq!(none.status.code(), Some(2));
 }
 
+/// Thirty students, of whom each other one spilt something, in five scenes and with programs in three languages; the recordings of two
+/// were cut.
+fn thirty(here: &Path) {
+    let folder = |n: usize| {
+        let folder = here.join("class").join(format!("Student {n:02}"));
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    };
+    for n in 0..28 {
+        let mut track = of_scene(SCENES[n % 5], if n % 2 == 0 { 0.0 } else { 2.0 });
+        let language = ["de", "es", "zh"][n % 3];
+        let parameters = &mut track.metadata.parameters;
+        parameters.insert("language".into(), language.into());
+        put(&folder(n), "pour.mcap", &track);
+    }
+    fs::write(folder(28).join("pour.mcap"), b"\x89MCAP0\r\n").unwrap();
+    fs::write(folder(29).join("pour.mcap"), b"").unwrap();
+}
+
+const SCENES: [&str; 5] = [
+    "acid-into-water",
+    "water-into-acid",
+    "hot-acid",
+    "fume-hood",
+    "layer-and-swirl",
+];
+
+/// The table in the terminal and the page have all that is needed to read them, in the teacher's language whatever the students' is.
+#[test]
+fn the_table_of_a_whole_class_explains_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    thirty(here);
+    let mut taken = 0;
+    for language in [Language::En, Language::De, Language::Zh] {
+        let arguments = ["grade", "class", "--out", "out", "--language"];
+        let output = VITRIOL.run(here, &[&arguments[..], &[language.code()]].concat());
+        let warned = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{warned}");
+        // One line of warning, which names both bad files.
+        assert_eq!(warned.trim_end().lines().count(), 1, "{warned}");
+        assert!(
+            warned.contains("Student 28") && warned.contains("Student 29"),
+            "{warned}"
+        );
+
+        let told = String::from_utf8(output.stdout).unwrap();
+        let mut lines = told.lines();
+        let head: Vec<&str> = lines.next().unwrap().split_whitespace().collect();
+        assert_eq!(
+            head,
+            ["student", "scene", "points", "incidents", "and", "notes"]
+        );
+        let rows: Vec<&str> = lines.by_ref().take(30).collect();
+        let unread = vitriol_run::texts::Texts::of(language).unwrap();
+        let unread = unread.grades.unread("");
+        for (n, row) in rows.iter().enumerate() {
+            let rest = row.strip_prefix(&format!("Student {n:02}  ")).unwrap();
+            if n < 28 {
+                assert!(rest.starts_with(SCENES[n % 5]), "{row}");
+                assert!(rest.contains(" of "), "{row}");
+                assert_eq!(rest.contains("spilt"), n % 2 == 1, "{row}");
+            } else {
+                assert!(rest.trim_start().starts_with("failed"), "{row}");
+                assert!(rest.contains(unread.trim()), "{row}");
+            }
+        }
+        assert_eq!(lines.next(), Some(""));
+        let mut scenes = SCENES;
+        scenes.sort_unstable();
+        let summary = format!(
+            "28 graded by {}, 0 not graded, 2 failed; {taken} of them as an earlier call left them",
+            scenes.join(", ")
+        );
+        assert_eq!(lines.next(), Some(summary.as_str()));
+        taken = 28;
+
+        let page = fs::read_to_string(here.join("out/grades.html")).unwrap();
+        assert_eq!(page.matches("<th scope=\"row\">").count(), 30);
+        let texts = Texts::of(language).unwrap();
+        for scene in SCENES {
+            let title = format!("<td>{}</td>", texts.scene(scene));
+            assert!(page.contains(&title), "{title}");
+        }
+    }
+}
+
 /// Scenes that are named are those of the class; by a lesson are graded those that name it.
 #[test]
 fn scenes_and_lessons_are_those_that_are_named() {
@@ -177,7 +264,7 @@ fn a_row_says_what_went_wrong_first() {
         let first = bjorn.first_wrong.as_ref().unwrap();
         assert_eq!(first.t_s, Some(0.2));
         // The texts themselves are those of the lesson's table, whose own tests read them.
-        let texts = vitriol_lesson::Texts::of(language.parse().unwrap()).unwrap();
+        let texts = Texts::of(language.parse().unwrap()).unwrap();
         let attempt = vitriol_lesson::Attempt::all(events(2.0)).remove(0);
         assert_eq!(first.text, texts.wrong(&attempt, &attempt.incidents[0]));
         let report = bjorn.report.as_deref().unwrap();

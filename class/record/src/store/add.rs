@@ -140,6 +140,18 @@ fn insert(change: &Transaction<'_>, entry: &Entry, id: &str, begun: &str) -> rus
             ],
         )?;
     }
+    for (position, cap) in score.iter().flat_map(|score| &score.caps).enumerate() {
+        change.execute(
+            "INSERT INTO caps VALUES (?1, ?2, ?3, ?4, ?5)",
+            params![
+                id,
+                position as i64,
+                entry.pseudonym.as_str(),
+                cap.danger,
+                cap.max
+            ],
+        )?;
+    }
     Ok(())
 }
 

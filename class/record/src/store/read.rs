@@ -10,7 +10,7 @@ use vitriol_lesson::Attempt;
 
 use super::error::In;
 use super::{Store, StoreError};
-use crate::{Entry, Points, Pseudonym, Score};
+use crate::{Cap, Entry, Points, Pseudonym, Score};
 
 /// Summary of one student's attempts.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,6 +177,16 @@ fn whole(connection: &Connection, path: &Path, row: Columns) -> Result<Entry, St
                 })
             });
             score.points = points.of(path)?.collect::<rusqlite::Result<_>>().of(path)?;
+            let query =
+                "SELECT danger, points_max FROM caps WHERE attempt_id = ?1 ORDER BY position";
+            let mut query = connection.prepare(query).of(path)?;
+            let caps = query.query_map([&row.id], |row| {
+                Ok(Cap {
+                    danger: row.get(0)?,
+                    max: row.get(1)?,
+                })
+            });
+            score.caps = caps.of(path)?.collect::<rusqlite::Result<_>>().of(path)?;
             Some(score)
         }
     };

@@ -4,7 +4,10 @@
 pub(super) const APPLICATION: i32 = 0x5669_7472;
 
 /// Version of these tables, in the file's `user_version`. A change of them raises it.
-pub(super) const VERSION: i32 = 1;
+pub(super) const VERSION: i32 = 2;
+
+/// The version before the table [`CAPS`], which is added to such a file when it is opened.
+pub(super) const WITHOUT_CAPS: i32 = 1;
 
 /// `class` has one row. `attempts` and `students` are for spreadsheets; `attempt` holds all of an attempt as JSON. Rows that belong to an
 /// attempt are deleted with it.
@@ -100,4 +103,16 @@ SELECT
     min(begun) AS first_begun,
     max(begun) AS last_begun
 FROM attempts GROUP BY pseudonym ORDER BY pseudonym;
+";
+
+/// What caps the points of an attempt: the danger in a word, and the most points that it leaves. The lowest cap is first.
+pub(super) const CAPS: &str = "
+CREATE TABLE IF NOT EXISTS caps (
+    attempt_id TEXT NOT NULL REFERENCES attempts ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    pseudonym TEXT NOT NULL,
+    danger TEXT NOT NULL,
+    points_max REAL NOT NULL,
+    PRIMARY KEY (attempt_id, position)
+) STRICT;
 ";

@@ -9,8 +9,9 @@ use std::thread;
 
 use uuid::Uuid;
 
+use super::schema::{VERSION, WITHOUT_CAPS};
 use super::{Added, Store, StoreError};
-use crate::{Entry, Points, Score, example};
+use crate::{Cap, Entry, Points, Score, example};
 
 /// In the environment of a child process, the file that it writes until it is killed.
 const CHILD: &str = "VITRIOL_RECORD_TEST_CHILD";
@@ -37,6 +38,11 @@ fn scored(mut entry: Entry) -> Entry {
         raw: 3.0,
         max: 10.0,
     }];
+    let cap = |danger: &str, max| Cap {
+        danger: danger.into(),
+        max,
+    };
+    score.caps = vec![cap("acid-on-skin", 13.0), cap("no-goggles", 16.0)];
     entry.score = Some(score);
     entry
 }
@@ -89,13 +95,15 @@ fn what_was_added_is_there_once() {
         2 + first.attempt.incidents.len() as u64
     );
     let waiting = store.at(&store.numbers(LRS).unwrap()).unwrap();
-    assert!(
-        waiting
-            .last()
-            .unwrap()
-            .statement
-            .contains(r#""scaled":0.65"#)
-    );
+    let last = &waiting.last().unwrap().statement;
+    assert!(last.contains(r#""scaled":0.65"#), "{last}");
+    // And with what capped it, under keys of our own.
+    for part in [
+        r#"#key/caps":["acid-on-skin","no-goggles"]"#,
+        r#"#key/cap_points":13.0"#,
+    ] {
+        assert!(last.contains(part), "{part}: {last}");
+    }
 
     let students = store.students().unwrap();
     let [p07, p08] = &students[..] else {
@@ -138,13 +146,13 @@ fn other_files_are_refused_and_kept() {
     let newer = Store::open(&path("newer")).unwrap();
     newer
         .connection
-        .pragma_update(None, "user_version", 2)
+        .pragma_update(None, "user_version", VERSION + 1)
         .unwrap();
     drop(newer);
     for name in ["text", "other", "newer"] {
         let before = fs::read(path(name)).unwrap();
         let error = Store::open(&path(name)).unwrap_err();
-        let newer = matches!(error, StoreError::Newer { found: 2, .. });
+        let newer = matches!(error, StoreError::Newer { found, .. } if found == VERSION + 1);
         assert_eq!(newer, name == "newer", "{error}");
         assert!(
             newer || matches!(error, StoreError::NotOurs { .. }),
@@ -152,6 +160,27 @@ fn other_files_are_refused_and_kept() {
         );
         assert_eq!(fs::read(path(name)).unwrap(), before, "{name}");
     }
+}
+
+/// A file of before there were caps gets their table, and keeps what it has.
+#[test]
+fn an_older_file_gets_its_caps() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("class");
+    let mut store = Store::open(&path).unwrap();
+    store.add(&entry("p07", 1), None).unwrap();
+    store.connection.execute_batch("DROP TABLE caps").unwrap();
+    store
+        .connection
+        .pragma_update(None, "user_version", WITHOUT_CAPS)
+        .unwrap();
+    drop(store);
+
+    let mut store = Store::open_existing(&path).unwrap();
+    let second = scored(entry("p07", 2));
+    store.add(&second, None).unwrap();
+    let kept = store.attempts_of(&second.pseudonym).unwrap();
+    assert_eq!(kept, [entry("p07", 1), second]);
 }
 
 #[test]

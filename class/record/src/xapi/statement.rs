@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 use serde::{Serialize, Serializer};
+use serde_json::Value;
 use uuid::Uuid;
 
 use super::activity::{Activity, Words, english};
@@ -166,6 +167,17 @@ fn outcome(entry: &Entry) -> Outcome {
         }
     }
     let score = entry.score.as_ref();
+    let caps = score.map_or(&[][..], |score| score.caps.as_slice());
+    if let [lowest, ..] = caps {
+        let dangers: Vec<&str> = caps.iter().map(|cap| cap.danger.as_str()).collect();
+        let values: [(&str, Value); 2] =
+            [("caps", dangers.into()), ("cap_points", lowest.max.into())];
+        for (name, value) in values {
+            if let Some(key) = Key::named(name) {
+                extensions.insert(key.iri(), value);
+            }
+        }
+    }
     Outcome {
         score: score.map(|score| Scored {
             scaled: score.scaled(),

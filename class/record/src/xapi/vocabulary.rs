@@ -89,10 +89,12 @@ const fn key(name: &'static str, unit: &'static str, meaning: &'static str) -> K
 
 /// Every key of an extension.
 #[rustfmt::skip]
-pub const KEYS: [Key; 19] = [
+pub const KEYS: [Key; 21] = [
     key("acid", "1", "mean acid mass fraction"),
     key("bench_m3", "m³", "liquid on the bench at the end"),
     key("broke", "", "whether it broke"),
+    key("cap_points", "", "the most points that the lowest cap leaves"),
+    key("caps", "", "dangers that cap the points, the lowest cap first"),
     key("cause", "", "why: what was under way where the liquid came from"),
     key("cause_flask", "", "the flask of the cause"),
     key("film_s", "s", "when it began, simulated time of the run"),

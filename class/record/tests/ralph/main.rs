@@ -13,7 +13,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use vitriol_record::lrs::{Lrs, Patience, Token, send};
 use vitriol_record::store::Store;
-use vitriol_record::{Keeping, Kept, Pseudonym, Score, Scored, Session, Timestamp, keep};
+use vitriol_record::{Cap, Keeping, Kept, Pseudonym, Score, Scored, Session, Timestamp, keep};
 use vitriol_tests::ralph::{CREDENTIALS, Ralph, Server, free_port};
 
 const EACH: u64 = 9;
@@ -25,6 +25,10 @@ fn begun() -> Timestamp {
 fn scored() -> Scored {
     let mut score = Score::new(13.0, 20.0).unwrap();
     score.passed = Some(true);
+    score.caps = vec![Cap {
+        danger: "no-goggles".into(),
+        max: 13.0,
+    }];
     Scored {
         attempt: example::attempt(),
         score: Some(score),

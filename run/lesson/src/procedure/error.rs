@@ -43,7 +43,7 @@ pub enum LessonError {
 pub struct Fault {
     /// Its line, counted from 1.
     pub line: usize,
-    /// Path of the field, such as `step[1].points`; empty where the text is no TOML.
+    /// Path of the field, such as `step[1].points`, with indices from 0; empty where the text is no TOML.
     pub field: String,
     /// What is wrong with it and what would be right.
     pub problem: String,
@@ -53,11 +53,31 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {}: ", self.line)?;
         if !self.field.is_empty() {
-            write!(f, "{}: ", self.field)?;
+            write!(f, "{}: ", counted_from_one(&self.field))?;
         }
         // A key of the file may have a line break; a fault is one line.
         f.write_str(&self.problem.replace(['\n', '\r'], " "))
     }
+}
+
+/// The path in a teacher's words, who counts from 1: `step[0].points` is `step 1, points`.
+fn counted_from_one(field: &str) -> String {
+    let (mut path, mut rest) = (String::new(), field);
+    while let Some((before, (index, behind))) = next_index(rest) {
+        path += &format!("{before} {}", index.saturating_add(1));
+        rest = behind.strip_prefix('.').unwrap_or(behind);
+        if !rest.is_empty() {
+            path += ", ";
+        }
+    }
+    path + rest
+}
+
+/// What stands before the first `[index]` of a path, and the index with what stands behind it.
+fn next_index(path: &str) -> Option<(&str, (usize, &str))> {
+    let (before, rest) = path.split_once('[')?;
+    let (index, behind) = rest.split_once(']')?;
+    Some((before, (index.parse().ok()?, behind)))
 }
 
 /// A line for each fault, each with the file's name: editors open such lines.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
+use vitriol_sim::scene::missing_quote;
 
 use super::error::{Fault, LessonError, Problems};
 
@@ -42,9 +43,16 @@ impl<'t> Source<'t> {
         };
         for error in &errors {
             let at = error.span().map_or(0, |span| span.start);
-            source.fault(at, "", format!("is no TOML: {}", error.message()));
+            let problem = match missing_quote(error.message()) {
+                Some(problem) => problem.to_owned(),
+                None => format!("is no TOML: {}", error.message()),
+            };
+            source.fault(at, "", problem);
         }
-        // One mistake may be told several times by the parser.
+        // One mistake may be told several times by the parser. The rest often follows from a quote that is missing.
+        source
+            .faults
+            .sort_by_key(|fault| (fault.line, fault.problem.starts_with("is no TOML")));
         source.faults.dedup_by_key(|fault| fault.line);
         if errors.is_empty() {
             Ok(source)

@@ -10,6 +10,7 @@ mod fits;
 mod keeping;
 mod modes;
 mod order;
+mod page;
 mod questions;
 mod retold;
 mod spoiled;

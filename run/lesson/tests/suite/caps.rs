@@ -244,3 +244,10 @@ fn each_language_says_the_caps() {
         assert!(score.caps.iter().all(|cap| cap.text.contains("40")));
     }
 }
+
+#[test]
+fn a_danger_has_one_name() {
+    for danger in Danger::ALL {
+        assert_eq!(serde_json::to_value(danger).unwrap(), danger.name());
+    }
+}

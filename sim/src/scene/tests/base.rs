@@ -61,4 +61,11 @@ fn what_is_wrong_is_named() {
     // A base has a name and a description of its own.
     assert!(error("description = \"Mine.\"", "").contains("description"));
     assert!(error("ambient", "ambience").contains("ambience"));
+    // `name` is in the third line.
+    let quote = error("name = \"mine\"", "name = \"mine");
+    assert!(
+        quote.starts_with("mine.toml: line 3: a quote is missing"),
+        "{quote}"
+    );
+    assert!(!quote.contains("TOML"), "{quote}");
 }

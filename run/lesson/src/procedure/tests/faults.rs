@@ -148,6 +148,23 @@ fn what_is_no_toml_is_told_by_its_lines() {
     assert!(found.iter().all(|it| it.problem.contains("no TOML")));
 }
 
+/// A quote that is missing is told in a sentence of ours, whatever else the parser stumbles over in that line.
+#[test]
+fn a_missing_quote_is_told_with_its_line() {
+    for (good, bad) in [
+        ("id = \"stir\"", "id = \"stir"),
+        ("name = \"own-1\"", "name = 'own-1"),
+        ("hint = \"Wait.\" }", "hint = \"Wait. }"),
+    ] {
+        let text = GOOD.replacen(good, bad, 1);
+        let found = faults(&text);
+        let first = found.first().unwrap().to_string();
+        let line = line_of(&text, bad);
+        let right = format!("line {line}: a quote is missing: ");
+        assert!(first.starts_with(&right), "{bad}: {found:?}");
+    }
+}
+
 /// A scene that cannot be read is a fault beside the others.
 #[test]
 fn a_scene_that_is_not_there_is_told_with_the_rest() {
@@ -157,7 +174,10 @@ fn a_scene_that_is_not_there_is_told_with_the_rest() {
     let lines: Vec<&str> = message.lines().collect();
     assert_eq!(lines.len(), 2, "{message}");
     assert!(lines[0].contains("line 4: scene: no bench"), "{message}");
-    assert!(lines[1].contains("step[0].points"), "{message}");
+    assert!(
+        lines[1].contains("line 9: step 1, points: 1001"),
+        "{message}"
+    );
 }
 
 /// English is a language as the others: a lesson may have one of them alone, which stands in for those that it does not have.

@@ -38,46 +38,46 @@ fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
         (
             &|it| it.flasks[0].name = "c".into(),
             &[
-                "step[0].condition.poured.from:",
+                "step 1, condition.poured.from:",
                 "no flask \"a\"",
                 "\"c\", \"b\"",
             ],
         ),
         (
             &|it| it.flasks[1].name = "c".into(),
-            &["step[0].condition.poured.into:", "no flask \"b\""],
+            &["step 1, condition.poured.into:", "no flask \"b\""],
         ),
         (
             &|it| it.flasks[0].lifted = false,
             &[
-                "step[1].condition.all[1].any[0].lifted.flask:",
+                "step 2, condition.all 2, any 1, lifted.flask:",
                 "\"a\" is fixed",
                 "\"b\"",
             ],
         ),
         (
             &|it| it.liquid_m3 = 12e-6,
-            &["step[0].condition.poured.at_least_ml:", "12 mL in all"],
+            &["step 1, condition.poured.at_least_ml:", "12 mL in all"],
         ),
         (
             &|it| it.liquid_m3 = 160e-6,
-            &["step[2].condition.holds.at_least_ml:", "160 mL in all"],
+            &["step 3, condition.holds.at_least_ml:", "160 mL in all"],
         ),
         (
             &|it| it.heat = false,
-            &["step[0].keep[0]:", "\"bench\" has no heat"],
+            &["step 1, keep 1:", "\"bench\" has no heat"],
         ),
         (
             &|it| it.gloves = false,
-            &["step[0].keep[1]:", "\"bench\" has no gloves"],
+            &["step 1, keep 2:", "\"bench\" has no gloves"],
         ),
         (
             &|it| it.rod = false,
-            &["step[1].condition.all[0].stirred:", "stirring rod"],
+            &["step 2, condition.all 1, stirred:", "stirring rod"],
         ),
         (
             &|it| it.goggles = false,
-            &["step[1].condition.all[1].any[1].goggles:", "goggles"],
+            &["step 2, condition.all 2, any 2, goggles:", "goggles"],
         ),
     ];
     for (change, needed) in changes {

@@ -135,17 +135,17 @@ fn a_question_that_is_spoiled_is_refused() {
         (
             "answers = 3, right = 2",
             "answers = 4, right = 2",
-            &["step[1].condition.answered.answers: 4", "1 to 3"],
+            &["step 2, condition.answered.answers: 4", "1 to 3"],
         ),
         (
             "answers = 3, right = 2",
             "answers = 0",
-            &["step[1].condition.answered.answers: 0", "1 to 3"],
+            &["step 2, condition.answered.answers: 0", "1 to 3"],
         ),
         (
             "right = 2",
             "right = 4",
-            &["step[1].condition.answered.right: 4", "1 to 3"],
+            &["step 2, condition.answered.right: 4", "1 to 3"],
         ),
         ("right = 2", "right = -1", &["invalid value"]),
         (
@@ -156,7 +156,7 @@ fn a_question_that_is_spoiled_is_refused() {
         (
             "{ answered = { answers = 2 } }",
             "{ all = [{ answered = { answers = 2 } }] }",
-            &["step[0].condition.all[0].answered:", "make a step of it"],
+            &["step 1, condition.all 1, answered:", "make a step of it"],
         ),
         (
             "\"Yes.\", \"No.\"",

@@ -113,34 +113,34 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "id = \"stir\"",
             "id = \"pour\"",
-            &["step[1].id:", "\"pour\" is there before"],
+            &["step 2, id:", "\"pour\" is there before"],
         ),
         (
             "id = \"clean\"",
             "id = \"stir\"",
-            &["rule[0].id:", "\"stir\" is there before"],
+            &["rule 1, id:", "\"stir\" is there before"],
         ),
-        ("id = \"stir\"", "id = \"\"", &["step[1].id:", "no name"]),
+        ("id = \"stir\"", "id = \"\"", &["step 2, id:", "no name"]),
         (
             "after = [\"pour\"]",
             "after = [\"check\"]",
-            &["step[1].after:", "\"check\"", "\"pour\""],
+            &["step 2, after:", "\"check\"", "\"pour\""],
         ),
         (
             "points = 10",
             "points = 1001",
-            &["step[0].points: 1001", "0 to 1000"],
+            &["step 1, points: 1001", "0 to 1000"],
         ),
         ("points = 10", "points = -1", &["line 9", "invalid value"]),
         (
             "hint_after_s = 20",
             "hint_after_s = 0",
-            &["step[0].hint_after_s: 0", "1 to 3600"],
+            &["step 1, hint_after_s: 0", "1 to 3600"],
         ),
         (
             "time_limit_s = 120",
             "time_limit_s = inf",
-            &["step[0].time_limit_s: inf"],
+            &["step 1, time_limit_s: inf"],
         ),
         (
             "time_limit_s = 120",
@@ -160,26 +160,26 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "at_least_ml = 15",
             "at_least_ml = 0.1",
-            &["step[0].condition.poured.at_least_ml: 0.1", "0.5 to"],
+            &["step 1, condition.poured.at_least_ml: 0.1", "0.5 to"],
         ),
         (
             "at_least_ml = 15",
             "at_least_ml = nan",
-            &["step[0].condition.poured.at_least_ml: NaN"],
+            &["step 1, condition.poured.at_least_ml: NaN"],
         ),
         ("at_least_ml = 15", "", &["missing field `at_least_ml`"]),
         (
             "at_most_ml = 20",
             "at_most_ml = 10",
             &[
-                "step[0].condition.poured:",
+                "step 1, condition.poured:",
                 "at_least_ml 15 is above at_most_ml 10",
             ],
         ),
         (
             "at_most_ml_s = 5",
             "at_most_ml_s = 0",
-            &["step[0].condition.poured.at_most_ml_s: 0", "0.1 to 1000"],
+            &["step 1, condition.poured.at_most_ml_s: 0", "0.1 to 1000"],
         ),
         (
             "liquid = \"acid\"",
@@ -189,7 +189,7 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "acid_to_percent = 20",
             "acid_to_percent = 10",
-            &["step[2].condition.holds.acid_to_percent: 10", "15 to 100"],
+            &["step 3, condition.holds.acid_to_percent: 10", "15 to 100"],
         ),
         (
             "acid_from_percent = 15",
@@ -199,42 +199,42 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "for_s = 3",
             "for_s = 0",
-            &["step[2].condition.holds.for_s: 0"],
+            &["step 3, condition.holds.for_s: 0"],
         ),
         (
             "at_least_s = 5",
             "at_least_s = -5",
-            &["step[1].condition.all[0].stirred.at_least_s: -5"],
+            &["step 2, condition.all 1, stirred.at_least_s: -5"],
         ),
         (
             "at_least_c = 20, at_most_c = 90",
             "at_least_c = 90, at_most_c = 20",
-            &["step[3].condition.temperature:", "the other way"],
+            &["step 4, condition.temperature:", "the other way"],
         ),
         (
             ", at_least_c = 20, at_most_c = 90",
             "",
-            &["step[3].condition.temperature:", "has no end"],
+            &["step 4, condition.temperature:", "has no end"],
         ),
         (
             "at_most_c = 90",
             "at_most_c = 900",
-            &["step[3].condition.temperature.at_most_c: 900", "-50 to 350"],
+            &["step 4, condition.temperature.at_most_c: 900", "-50 to 350"],
         ),
         (
             "any = [{ lifted = { flask = \"a\" } }, { goggles = { on = true } }]",
             "any = []",
-            &["step[1].condition.all[1].any:", "0 parts"],
+            &["step 2, condition.all 2, any:", "0 parts"],
         ),
         (
             "{ goggles = { on = true } }",
             "{ any = [{ all = [] }] }",
-            &["step[1].condition.all[1].any[1].any:", "deep", "two steps"],
+            &["step 2, condition.all 2, any 2, any:", "deep", "two steps"],
         ),
         (
             "below_c = 60",
             "below_c = 1e9",
-            &["step[0].keep[0].cool.below_c:"],
+            &["step 1, keep 1, cool.below_c:"],
         ),
         (
             "\"gloves\"]",
@@ -244,7 +244,7 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         (
             "at_most_ml = 1 }",
             "at_most_ml = -1 }",
-            &["rule[0].keep.spilt.at_most_ml: -1"],
+            &["rule 1, keep.spilt.at_most_ml: -1"],
         ),
         (
             "spilt = {",
@@ -324,7 +324,7 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         .replace("points = 5\n", "points = 0\n");
     let error = Lesson::parse(&none, "bad.toml").unwrap_err().to_string();
     assert!(
-        error.contains("step[0].points") && error.contains("give one some"),
+        error.contains("step 1, points") && error.contains("give one some"),
         "{error}"
     );
     let empty = "version = 1\nname = \"a\"\nscene = \"b\"\nmodes = [\"free\"]\n";
