@@ -69,6 +69,8 @@ pub struct Parameters {
     pub chemistry: Option<Chemistry>,
     /// Heat that plates give the flasks' bases, W, flask by flask; empty without a plate.
     pub heaters: Vec<f64>,
+    /// Whether passes are left out while they would change nothing. The bits are the same without.
+    pub dormant: bool,
     /// Margin of the neighbour list beyond h, fraction of h.
     pub list_margin: f64,
     /// How far a particle may be from where it was listed, fraction of h.
@@ -207,6 +209,7 @@ impl Parameters {
             surface: scene.surface_tension(),
             chemistry: Chemistry::from_scene(scene),
             heaters: scene.flasks.iter().map(|flask| flask.heater).collect(),
+            dormant: true,
             list_margin: LIST_MARGIN,
             list_reach: LIST_REACH,
             margin: FLASK_MARGIN * scale.support(),

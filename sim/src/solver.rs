@@ -17,6 +17,7 @@ mod carry;
 mod census;
 mod colour;
 mod counters;
+mod dormant;
 mod error;
 mod frame;
 mod grid;
@@ -43,6 +44,7 @@ pub use census::{
     MOST_LIMBS, Moved, Onto, Place, SCALDS, Skin, SkinPart, Touching,
 };
 pub use counters::Counters;
+pub use dormant::Dormant;
 pub use error::SolverError;
 pub use frame::FrameRecord;
 pub use handle::{ROD_DRAG, Touch};

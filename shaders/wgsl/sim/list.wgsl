@@ -2,6 +2,7 @@
 // Pairs that glass separates are left out here, once, and not in each pass.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/turnover_plan.wgsl
 //!include common/glass/vessel.wgsl
 //!include common/liquid/cell_starts.wgsl
 //!include common/liquid/counters.wgsl
@@ -37,6 +38,8 @@ override LIST_LANES: u32 = 1u;
 @group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(32) var<storage, read> sorted_eddies: array<vec2<f32>>;
 @group(0) @binding(33) var<storage, read_write> eddies: array<vec2<f32>>;
+/// See `common/chemistry/turnover_plan.wgsl`.
+@group(0) @binding(34) var<storage, read_write> kept: array<f32>;
 /// As `common/liquid/listed.wgsl` has it.
 @group(0) @binding(52) var<storage, read_write> long_lists: array<atomic<u32>>;
 
@@ -315,6 +318,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
     if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
     list_counts[i] = found;
+    if (DORMANT_TURNOVER) { kept[i] = select(1.0, 0.0, found > LIST_CAPACITY); }
     // Sums take four at a time; the particle itself adds nothing to differences.
     for (var k = min(found, place.room); (k & 3u) != 0u; k++) { list[word(k)] = i; }
     var volume = 1.0;

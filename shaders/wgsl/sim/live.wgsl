@@ -1,5 +1,6 @@
 // Lists the places in which there is a bubble, drops, or what comes to one, so that the passes over bubbles and drops are as large as
-// what there is: of 16,384 places few have anything. The list's order is that in which threads come; no place depends on another's.
+// what there is: of 16,384 places few have anything. Dormant itself while there is nothing to be listed (`LIVE_GROUPS`): the list stays
+// empty, and the flow of gas 0. The list's order is that in which threads come; no place depends on another's.
 //!include common/chemistry/bubble.wgsl
 //!include common/chemistry/drops.wgsl
 //!include common/chemistry/live_places.wgsl

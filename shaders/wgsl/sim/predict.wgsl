@@ -1,6 +1,7 @@
 // Line 16 at a frame's start; within a frame the forces end with it.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/turnover_plan.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
@@ -15,6 +16,9 @@
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x;
     if (i >= COUNT) { return; }
+    if (DORMANT_TURNOVER) {
+        if (i == 0u) { plan_turnover(step.time); }
+    }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
     var volume = 1.0;
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }

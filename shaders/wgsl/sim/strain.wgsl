@@ -5,6 +5,7 @@
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/flow.wgsl
+//!include common/chemistry/turnover_plan.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
@@ -74,5 +75,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let strain = 2.0 * dot(along, along) + dot(across, across);
     let buoyancy = dot(vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), density) / own.w;
     let rate = sqrt(max(strain - buoyancy / SCHMIDT, 0.0));
-    eddies[i] = pack_eddies(Eddies(EDDY_AREA * rate + stirred_by_bubbles(i), unpack_eddies(eddies[i]).variance));
+    let diffusivity = EDDY_AREA * rate + stirred_by_bubbles(i);
+    if (DORMANT_TURNOVER) { note_eddies(diffusivity); }
+    eddies[i] = pack_eddies(Eddies(diffusivity, unpack_eddies(eddies[i]).variance));
 }

@@ -1,8 +1,9 @@
 // Line 26 of the physical chemistry, before its exchange: what each particle may keep of the exchange that
 // eddies and molecules ask for, so that it swaps no more than all that it has (`chemistry/transport.rs`).
 //
-// No scene needs it, and still each substep asks. Where the glass leaves the liquid behind after a stall, a turnover that is small in a
-// frame's first substep passes 1 in its others, and without this particles would get colder than all there was.
+// No scene needs it, and still each substep asks unless all eddies are slow (`common/chemistry/turnover_plan.wgsl`). Where the glass
+// leaves the liquid behind after a stall, a turnover that is small in a frame's first substep passes 1 in its others, and without this
+// particles would get colder than all there was.
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/transport.wgsl

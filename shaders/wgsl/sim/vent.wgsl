@@ -1,16 +1,21 @@
 // What steam left the liquid becomes puffs. Each workgroup gathers the steam
 // of a share of the particles and of the bubbles, and lets it rise from one of them: that with
 // the most, by lot, so that the puffs come from all over the surface.
+// As the last pass of a frame that looks at bubbles, it also puts their passes to sleep where there are none.
 //!include common/chemistry/bubble.wgsl
 //!include common/chemistry/condensation.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/ledger.wgsl
 //!include common/chemistry/particle_mass.wgsl
+//!include common/chemistry/venting.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/maths/lot.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;
+/// Whether the passes over bubbles may be dormant; else they look for bubbles in each of their steps.
+override DORMANT_BUBBLES: bool = false;
+override FLASKS: u32 = 0u;
 /// Steam that makes a puff, kg; less waits for more.
 override LEAST_PUFF: f32 = 5e-7;
 
@@ -23,6 +28,9 @@ override LEAST_PUFF: f32 = 5e-7;
 @group(0) @binding(5) var<storage, read_write> made: array<u32>;
 
 @group(0) @binding(6) var<storage, read_write> bubbles: array<Bubble>;
+@group(0) @binding(7) var<storage, read_write> claims: array<u32>;
+/// As `common/chemistry/live_places.wgsl` has it.
+@group(0) @binding(8) var<storage, read> live: array<u32>;
 
 const THREADS: u32 = 256u;
 
@@ -31,8 +39,21 @@ var<workgroup> lots: array<f32, THREADS>;
 /// Particles that drew them.
 var<workgroup> drawers: array<u32, THREADS>;
 
+/// Without a place that the frame's last step listed there is no bubble, no drop and nothing that comes to one; and the flow of gas,
+/// of which `sim/live.wgsl` takes a mean, is and stays 0.
+fn sleep_without_bubbles() {
+    var busy = live[SLOTS] + live[SLOTS + 1u];
+    for (var k = 0u; k < FLASKS; k++) {
+        busy += select(0u, 1u, atomicLoad(&venting[k].quanta) > 0u || bitcast<u32>(venting[k].flow) != 0u);
+    }
+    if (busy == 0u) { claims[SLOTS + LIVE_GROUPS] = 0u; }
+}
+
 @compute @workgroup_size(256)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    if (DORMANT_BUBBLES) {
+        if (group.x == 0u && local.x == 0u) { sleep_without_bubbles(); }
+    }
     let first = group.x + VENTS * local.x;
     let number = made[group.x];
     var sum = vec2<f32>(0.0);

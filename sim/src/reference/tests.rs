@@ -48,6 +48,7 @@ fn parameters() -> Parameters {
         surface: None,
         chemistry: None,
         heaters: Vec::new(),
+        dormant: true,
         list_margin: 0.05,
         list_reach: 0.075,
         margin: 0.001 * H,

@@ -24,7 +24,7 @@ const DROPS_ARGS: u64 = 12;
 const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 /// Threads of a workgroup of the passes over bubbles.
-const GROUP: u32 = 64;
+pub(super) const GROUP: u32 = 64;
 
 /// Flags of substep `n` of `substeps`: whether bubbles acted right before it ([`ACTED`]), and whether they act after it ([`ACT`]).
 pub(super) fn flags(n: u32, substeps: u32) -> u32 {
@@ -212,9 +212,10 @@ impl Solver {
         let args = &self.buffers.live_args;
         let first = u64::from(part.second) * SET_ARGS;
         if let Some(live) = &self.pipelines.live {
+            let size = 4 * u64::from(bubbles.slots());
             self.pass(rec, live)
                 .constants(step)
-                .invocations(bubbles.slots())?;
+                .indirect(&self.buffers.claims, size)?;
         }
         self.pass(rec, pass).constants(step).indirect(args, first)?;
         if let Some(spray) = &self.pipelines.spray {

@@ -3,6 +3,7 @@
 
 use super::colour::{self, Colour};
 use super::counters::Counters;
+use super::dormant::{PLAN_WORDS, SIZE_WORDS};
 use super::grid::Grid;
 use super::spec::SolverSpec;
 use super::vapour::{COUNTS, PUFFS, dew_places, dew_rows, with_steam};
@@ -31,13 +32,11 @@ pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
 }
 
 /// (name in shaders, label of the buffer): scratch memory that is unused at that moment is bound under another name.
-pub(super) const LENT: [(&str, &str); 7] = [
+pub(super) const LENT: [(&str, &str); 6] = [
     // During a rebuild. `solved` and `new_velocity` are written only later; the particles of cells lie in `list` until it is made.
     ("cell_items", "list"),
     ("sorted_trial", "solved"),
     ("sorted_velocity", "new_velocity"),
-    // Once x* is committed.
-    ("kept", "solved"),
     // While x* is sought.
     ("volumes", "mixing"),
     // Once the colour is filtered.
@@ -131,6 +130,8 @@ buffers! {
         /// Diffusivity of the unresolved eddies (m²/s) and variance of the acid fraction.
         eddies: 2 * s.physical,
         sorted_eddies: 2 * s.physical,
+        /// What of its exchange a particle may keep, by slot.
+        kept: s.physical,
         // Coupling with the rigid bodies.
         wall_push: 4 * s.pushed,
         // Reports.
@@ -177,8 +178,8 @@ buffers! {
         lamellae: words_of(&s.lamellae),
         /// Records of bubbles before and after a step.
         bubbles: 2 * BUBBLE_WORDS as u64 * s.bubbles,
-        /// By bubble's place, the particle at which a bubble is to be born, plus one.
-        claims: s.bubbles,
+        /// By bubble's place, the particle at which a bubble is to be born, plus one; behind them the size of the dispatch that lists places.
+        claims: s.claims,
         /// By step and bubble: quanta of steam, enthalpy and air of the bubbles that join it.
         merging: 6 * s.bubbles,
         /// By set of records and bubble, the place that takes its half if it divides, plus one.
@@ -207,6 +208,8 @@ buffers! {
         taken: s.puffs,
         /// Counts of puffs made, and of water that was washed off glass.
         made: s.made,
+        /// Size of the dispatch of turnovers, and what it follows from.
+        turnover_plan: PLAN_WORDS,
         poses: bytes_of_poses(s.substeps, s.flasks) / 4,
         loads: s.loads,
     }
@@ -234,6 +237,7 @@ struct Sizes {
     nodes: u64,
     held_nodes: u64,
     bubbles: u64,
+    claims: u64,
     live: u64,
     drops: u64,
     vented_flasks: u64,
@@ -300,6 +304,7 @@ impl Sizes {
             nodes,
             held_nodes: where_asked(sticks, nodes),
             bubbles: places,
+            claims: where_asked(bubbles.is_some(), places + SIZE_WORDS),
             live: where_asked(bubbles.is_some(), places + 2),
             drops,
             vented_flasks: where_asked(bubbles.is_some(), flasks),

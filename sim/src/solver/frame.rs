@@ -87,7 +87,12 @@ impl Solver {
                 self.hold_together(rec, &step, substeps)?; // 28, surface tension
             }
             // 26 of either chemistry, but for the heat of solution and what boiling costs.
-            for mixing in &p.mixing {
+            if let Some(turnover) = &p.turnover {
+                self.pass(rec, turnover)
+                    .constants(&step)
+                    .indirect(&self.buffers.turnover_plan, 0)?;
+            }
+            if let Some(mixing) = &p.mixing {
                 self.over_particles(rec, mixing, &step)?;
             }
             // 28, what its confinement needs of the neighbours.

@@ -2,6 +2,7 @@
 
 use super::buffers::LENT;
 use super::colour::Colour;
+use super::dormant;
 use super::grid::Grid;
 use super::lanes;
 use super::vapour::dew_places;
@@ -45,8 +46,10 @@ pub(super) struct Pipelines {
     pub(super) displacement: SolverPass,
     /// Displacement of a substep's last iteration, which goes on to lines 22 to 25.
     pub(super) last_displacement: SolverPass,
-    /// `diffusion` of the paper's chemistry, or `turnover` and `exchange` of the physical one.
-    pub(super) mixing: Vec<SolverPass>,
+    /// Of the physical chemistry, before its exchange.
+    pub(super) turnover: Option<SolverPass>,
+    /// `diffusion` of the paper's chemistry, or `exchange` of the physical one.
+    pub(super) mixing: Option<SolverPass>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<SolverPass>,
     /// Where the scene has surface tension.
@@ -114,12 +117,13 @@ impl Pipelines {
                 push: make(sim::TENSION, &[])?,
             }),
         };
-        let mixing = match spec.parameters.chemistry {
-            None => Vec::new(),
-            Some(Chemistry::Paper(_)) => vec![make(sim::DIFFUSION, &[])?],
-            Some(Chemistry::Physical(_)) => {
-                vec![make(sim::TURNOVER, &[])?, make(sim::EXCHANGE, &[])?]
-            }
+        let (turnover, mixing) = match spec.parameters.chemistry {
+            None => (None, None),
+            Some(Chemistry::Paper(_)) => (None, Some(make(sim::DIFFUSION, &[])?)),
+            Some(Chemistry::Physical(_)) => (
+                Some(make(sim::TURNOVER, &[])?),
+                Some(make(sim::EXCHANGE, &[])?),
+            ),
         };
         let lanes = lanes::of_bubbles(gpu, constants.lanes());
         let of_bubbles = |shader| match spec.parameters.bubbles() {
@@ -156,6 +160,7 @@ impl Pipelines {
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
+            turnover,
             mixing,
             vorticity,
             tension,
@@ -260,6 +265,12 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         ),
         ("ACID_DIFFUSIVITY", ACID_DIFFUSIVITY),
         ("THERMAL_DIFFUSIVITY", THERMAL_DIFFUSIVITY),
+        // Without eddies none are noted.
+        (
+            "DORMANT_TURNOVER",
+            flag(p.dormant && physical.mixing.turbulence > 0.0),
+        ),
+        ("TURNOVER_RATE", dormant::turnover_rate(p)),
     ];
     own.push(("EVAPORATION", flag(physical.evaporates())));
     if let Some(time) = physical.superheat_time {
@@ -268,6 +279,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
     if let Some(bubbles) = physical.bubbles {
         own.extend([
             ("BUBBLES", 1.0),
+            ("DORMANT_BUBBLES", flag(p.dormant)),
             ("SLOTS", bubbles.slots().into()),
             ("SPRAY", flag(bubbles.spray)),
             ("AIR", flag(bubbles.air)),
@@ -319,6 +331,10 @@ impl Constants {
         let mut all = vec![
             ("COUNT", f64::from(count)),
             ("FRAME_TIME", p.frame_time),
+            (
+                "TURNOVER_GROUPS",
+                f64::from(dormant::turnover_groups(count, lanes, group)),
+            ),
             ("LIST_CAPACITY", f64::from(grid.list_capacity)),
             ("PLACES", (grid.places(count) / 4) as f64),
             ("LONG_FOURS", (grid.long(count) / 4) as f64),

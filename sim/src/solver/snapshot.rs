@@ -3,7 +3,7 @@
 
 use super::buffers::Buffers;
 use super::transfer::read;
-use super::{Counters, Solver, SolverError, SolverState};
+use super::{Counters, Solver, SolverError, SolverState, dormant};
 use bytemuck::Pod;
 use std::sync::atomic::Ordering;
 use vitriol_gpu::{Buffer, GpuError, QueueKind, Readback, Recorder};
@@ -250,9 +250,10 @@ impl Solver {
         rec.upload(&b.long_lists, &long_lists)?;
         rec.fill(&b.cell_counts, 0)?;
         rec.fill(&b.block_counts, 0)?;
-        if self.pipelines.bubbles.is_some() {
+        rec.upload(&b.turnover_plan, &[self.awake_turnover()])?;
+        if let Some(bubbles) = self.parameters.bubbles() {
             // At a frame's end nothing is to be born.
-            rec.fill(&b.claims, 0)?;
+            rec.upload(&b.claims, &dormant::unclaimed(bubbles))?;
             rec.fill(&b.cavities, 0)?;
             rec.fill(&b.splits, 0)?;
             let (live, args) = self.listed_places(state.bubbles());

@@ -9,6 +9,7 @@ mod conserved;
 mod dew;
 mod dew_of_scenes;
 mod displaced;
+mod dormant;
 mod extremes;
 mod figures;
 mod idle;

@@ -87,6 +87,7 @@ fn bare() -> Parameters {
         surface: None,
         chemistry: None,
         heaters: Vec::new(),
+        dormant: true,
         list_margin: 0.05,
         list_reach: 0.075,
         margin: 5e-6,

@@ -2,3 +2,7 @@
 override SLOTS: u32 = 64u;
 /// Whether what bubbles throw up is followed.
 override SPRAY: bool = false;
+
+/// Where in `claims`, behind the places, the size of the dispatch of `sim/live.wgsl` is: 0 while there is nothing to be listed. What claims
+/// a place wakes it, and `sim/vent.wgsl` puts it to sleep.
+const LIVE_GROUPS: u32 = 0u;
