@@ -29,9 +29,10 @@ Section
     SetOutPath "$INSTDIR"
     WriteUninstaller "$INSTDIR\uninstall.exe"
 
-    ; The console stays open behind the headset's session, so that what is missing can be read.
+    ; The console stays open behind a session, so that what is missing can be read.
     CreateDirectory "$SMPROGRAMS\Vitriol"
-    CreateShortcut "$SMPROGRAMS\Vitriol\Vitriol.lnk" "$SYSDIR\cmd.exe" '/K ""$INSTDIR\vitriol.exe" vr"' "$INSTDIR\vitriol.exe" 0
+    CreateShortcut "$SMPROGRAMS\Vitriol\Vitriol.lnk" "$SYSDIR\cmd.exe" '/K ""$INSTDIR\vitriol.exe" desk"' "$INSTDIR\vitriol.exe" 0
+    CreateShortcut "$SMPROGRAMS\Vitriol\In a headset.lnk" "$SYSDIR\cmd.exe" '/K ""$INSTDIR\vitriol.exe" vr"' "$INSTDIR\vitriol.exe" 0
     CreateShortcut "$SMPROGRAMS\Vitriol\What this computer lacks.lnk" "$SYSDIR\cmd.exe" '/K ""$INSTDIR\vitriol.exe" doctor"' "$INSTDIR\vitriol.exe" 0
     CreateShortcut "$SMPROGRAMS\Vitriol\Read me.lnk" "$INSTDIR\README.md"
 

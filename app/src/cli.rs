@@ -4,12 +4,16 @@
 mod arguments;
 #[cfg(feature = "class")]
 mod class;
+#[cfg(feature = "session")]
+mod desk;
 mod drawn;
 #[cfg(feature = "export")]
 mod export;
 pub mod left_out;
 mod lesson;
 mod picture;
+#[cfg(feature = "session")]
+mod session;
 #[cfg(feature = "session")]
 mod vr;
 
@@ -18,11 +22,15 @@ use clap::{Parser, Subcommand};
 pub use arguments::{CameraName, PagesArgs, ReplayArgs, ScenesArgs, TrackArgs};
 #[cfg(feature = "class")]
 pub use class::{ForgetArgs, GradeArgs, HubArgs, KeepArgs};
+#[cfg(feature = "session")]
+pub use desk::DeskArgs;
 pub use drawn::DrawnArgs;
 #[cfg(feature = "export")]
 pub use export::ExportArgs;
 pub use lesson::{JudgeArgs, LessonArgs, LessonCommand, NewLessonArgs};
 pub use picture::PictureArgs;
+#[cfg(feature = "session")]
+pub use session::SessionArgs;
 #[cfg(feature = "session")]
 pub use vr::VrArgs;
 
@@ -52,6 +60,9 @@ pub enum Command {
     // In the order of the help: the laboratory, the program itself, a class, what measures.
     /// Replay a recorded pour and make its film and report
     Replay(Box<ReplayArgs>),
+    /// Pour with mouse and keyboard, in a window
+    #[cfg(feature = "session")]
+    Desk(Box<DeskArgs>),
     /// Pour by hand, in a headset
     #[cfg(feature = "session")]
     Vr(Box<VrArgs>),
@@ -132,7 +143,7 @@ mod tests {
     fn help_begins_with_the_laboratory() {
         let command = Cli::command();
         let names: Vec<&str> = command.get_subcommands().map(|it| it.get_name()).collect();
-        assert_eq!(names[..4], ["replay", "vr", "picture", "export"]);
+        assert_eq!(names[..5], ["replay", "desk", "vr", "picture", "export"]);
         let of_class = names.iter().position(|it| *it == "grade");
         let after = of_class.map(|at| &names[at..at + 4]);
         assert_eq!(after, Some(&["grade", "hub", "forget", "bench"][..]));

@@ -1,6 +1,8 @@
 //! The subcommands, one file each.
 
 mod course;
+#[cfg(feature = "session")]
+pub mod desk;
 pub mod doctor;
 #[cfg(feature = "export")]
 pub mod export;
@@ -19,6 +21,8 @@ mod plan;
 mod recorded;
 pub mod replay;
 pub mod scenes;
+#[cfg(feature = "session")]
+mod session;
 pub mod track;
 #[cfg(feature = "session")]
 pub mod vr;
@@ -52,6 +56,8 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Picture(args) => picture::run(args, format, prepare),
         Command::Track(args) => track::run(args, format),
         Command::Scenes(args) => scenes::run(args, format),
+        #[cfg(feature = "session")]
+        Command::Desk(args) => desk::run(args, format),
         #[cfg(feature = "session")]
         Command::Vr(args) => vr::run(args, format),
         #[cfg(feature = "class")]

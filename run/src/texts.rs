@@ -45,6 +45,8 @@ pub struct PanelTexts {
     pub recentre: String,
     /// Text of the button that asks for the summary.
     pub happened: String,
+    /// What mouse and keys do where they move the hands, in a line.
+    pub mouse: String,
     coming: String,
     ends: String,
     recording: String,
@@ -137,8 +139,8 @@ impl PanelTexts {
     }
 
     /// Note that this key ends the session.
-    pub fn ends(&self, key: char) -> String {
-        self.ends.replace("{key}", &key.to_string())
+    pub fn ends(&self, key: &str) -> String {
+        self.ends.replace("{key}", key)
     }
 
     /// Text for a recording of so many seconds.

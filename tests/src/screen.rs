@@ -6,8 +6,9 @@ use std::process::{Child, Command, Stdio};
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    AtomEnum, ChangeWindowAttributesAux, ClientMessageEvent, ConfigureWindowAux,
-    ConnectionExt as _, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ChangeWindowAttributesAux,
+    ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat, InputFocus,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -16,6 +17,52 @@ use crate::wait::until;
 
 /// Marks a test that runs on the screen.
 const INSIDE: &str = "VITRIOL_SCREEN";
+
+/// Symbols of keys that have no character (X11's keysymdef.h), and of Space. A letter or a digit is its own symbol.
+pub mod key {
+    /// The space bar.
+    pub const SPACE: u32 = 0x20;
+    /// Tab.
+    pub const TAB: u32 = 0xff09;
+    /// Enter.
+    pub const ENTER: u32 = 0xff0d;
+    /// Escape.
+    pub const ESCAPE: u32 = 0xff1b;
+    /// Home.
+    pub const HOME: u32 = 0xff50;
+    /// The arrow to the left.
+    pub const LEFT: u32 = 0xff51;
+    /// The arrow that points up.
+    pub const UP: u32 = 0xff52;
+    /// The arrow to the right.
+    pub const RIGHT: u32 = 0xff53;
+    /// The arrow that points down.
+    pub const DOWN: u32 = 0xff54;
+    /// Page up.
+    pub const PAGE_UP: u32 = 0xff55;
+    /// Page down.
+    pub const PAGE_DOWN: u32 = 0xff56;
+    /// F11.
+    pub const F11: u32 = 0xffc8;
+    /// Shift, of the left hand.
+    pub const SHIFT: u32 = 0xffe1;
+    /// Control, of the left hand.
+    pub const CONTROL: u32 = 0xffe3;
+}
+
+/// A button of the mouse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    /// The left one.
+    Main = 1,
+    /// The wheel, pressed.
+    Middle = 2,
+    /// The right one.
+    Secondary = 3,
+}
+
+/// The wheel's button of the X protocol for a notch up, and for one down.
+const WHEEL: [u8; 2] = [4, 5];
 
 /// The screen seen from inside.
 pub struct Screen {
@@ -161,6 +208,13 @@ impl Screen {
         (!title.is_empty()).then(|| String::from_utf8_lossy(&title).into_owned())
     }
 
+    /// Width and height of a window, pixels.
+    pub fn extent(&self, window: Window) -> [u32; 2] {
+        let size = self.connection.get_geometry(window.0).expect("a question");
+        let size = size.reply().expect("the window is there");
+        [size.width.into(), size.height.into()]
+    }
+
     /// The picture of a window: width, height, and pixels of red, green and blue, row by row.
     pub fn picture(&self, window: Window) -> ([u32; 2], Vec<[u8; 3]>) {
         let size = self.connection.get_geometry(window.0).expect("a question");
@@ -193,9 +247,74 @@ impl Screen {
         self.checked(self.connection.configure_window(window.0, &size));
     }
 
+    /// Gives a window the keyboard, once it is on the screen.
+    pub fn focus(&self, window: Window) {
+        until("the window is on the screen", || {
+            let asked = self.connection.get_window_attributes(window.0);
+            let state = asked.expect("a question").reply().ok()?.map_state;
+            (state == MapState::VIEWABLE).then_some(())
+        });
+        let focus =
+            self.connection
+                .set_input_focus(InputFocus::PARENT, window.0, x11rb::CURRENT_TIME);
+        self.checked(focus);
+    }
+
     /// Presses and releases the key of a letter or a digit, as a keyboard would, with the focus on
     /// the window.
     pub fn press(&self, window: Window, key: char) {
+        self.focus(window);
+        self.tap(u32::from(key));
+    }
+
+    /// Presses and releases the key of that symbol (see [`key`]), for the window that has the focus.
+    pub fn tap(&self, symbol: u32) {
+        self.key(symbol, true);
+        self.key(symbol, false);
+    }
+
+    /// Presses the key of that symbol, or releases it.
+    pub fn key(&self, symbol: u32, down: bool) {
+        let kind = if down {
+            KEY_PRESS_EVENT
+        } else {
+            KEY_RELEASE_EVENT
+        };
+        self.fake(kind, self.code(symbol), [0, 0]);
+    }
+
+    /// Moves the pointer to a place of a window, pixels from its upper left; it may lie outside the window.
+    pub fn point(&self, window: Window, [x, y]: [i32; 2]) {
+        let asked = self
+            .connection
+            .translate_coordinates(window.0, self.root, x as i16, y as i16);
+        let at = asked.expect("a question").reply().expect("a place");
+        // Its detail: the place is absolute.
+        self.fake(MOTION_NOTIFY_EVENT, 0, [at.dst_x, at.dst_y]);
+    }
+
+    /// Presses a button of the mouse where the pointer is, or releases it.
+    pub fn button(&self, button: Button, down: bool) {
+        let kind = if down {
+            BUTTON_PRESS_EVENT
+        } else {
+            BUTTON_RELEASE_EVENT
+        };
+        self.fake(kind, button as u8, [0, 0]);
+    }
+
+    /// Turns the wheel by so many notches, up positive.
+    pub fn wheel(&self, notches: i32) {
+        let button = WHEEL[usize::from(notches < 0)];
+        for _ in 0..notches.unsigned_abs() {
+            for kind in [BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT] {
+                self.fake(kind, button, [0, 0]);
+            }
+        }
+    }
+
+    /// The code of the key that has that symbol without Shift.
+    fn code(&self, symbol: u32) -> u8 {
         let setup = self.connection.setup();
         let (least, most) = (setup.min_keycode, setup.max_keycode);
         let map = self
@@ -205,22 +324,19 @@ impl Screen {
             .reply()
             .expect("the keyboard");
         let per_key = usize::from(map.keysyms_per_keycode);
-        // Letters and digits are their own symbols.
         let place = map
             .keysyms
             .chunks(per_key)
-            .position(|symbols| symbols[0] == u32::from(key));
-        let code = least + place.expect("a key of that letter") as u8;
-        let focus =
-            self.connection
-                .set_input_focus(InputFocus::PARENT, window.0, x11rb::CURRENT_TIME);
-        self.checked(focus);
-        for kind in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
-            let faked = self
-                .connection
-                .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
-            self.checked(faked);
-        }
+            .position(|symbols| symbols[0] == symbol);
+        least + place.expect("a key of that symbol") as u8
+    }
+
+    /// An event as mouse or keyboard would send it.
+    fn fake(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
+        let faked = self
+            .connection
+            .xtest_fake_input(kind, detail, 0, self.root, x, y, 0);
+        self.checked(faked);
     }
 
     /// Asks a window to close, as its frame's button does.

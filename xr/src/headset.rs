@@ -8,15 +8,26 @@
 use glam::Vec3;
 use vitriol_gpu::{Gpu, GpuError, Image};
 
-use crate::{Fov, Pose, PoseFrame, Side};
+use crate::{Around, Fov, Line, Pose, PoseFrame, Side};
 
 /// A headset's frames, images and hands.
 pub trait Headset {
     /// The device that simulation and picture use. Another one after [`Turn::Renewed`].
     fn gpu(&self) -> &Gpu;
 
+    /// Pictures that it shows: two eyes, or one on a screen, whose two views are then the same.
+    fn eyes(&self) -> u32 {
+        2
+    }
+
     /// Width and height of each eye's picture, pixels.
     fn extent(&self) -> [u32; 2];
+
+    /// Width and height of the picture that is to be drawn next, pixels: at most [`Headset::extent`]. A window that is smaller than its
+    /// screen needs less.
+    fn wanted(&self) -> [u32; 2] {
+        self.extent()
+    }
 
     /// The second pair of pictures, where the headset has one.
     fn inset(&self) -> Option<Inset>;
@@ -50,6 +61,14 @@ pub trait Headset {
     /// The user's gaze at the time for which the eyes were located last: from between them along -Z, in the stage. `None` where it is not
     /// known, or not asked for.
     fn gaze(&self) -> Option<Pose>;
+
+    /// Takes the bodies at the bench as they are before the next frame.
+    fn around(&mut self, _around: Around) {}
+
+    /// Lines that help a pointer, drawn with the picture of this frame.
+    fn lines(&self) -> Vec<Line> {
+        Vec::new()
+    }
 
     /// Ends the frame; without `shown` nothing is shown.
     ///
@@ -173,7 +192,8 @@ pub fn depth_extent(extent: [u32; 2]) -> [u32; 2] {
 /// The runtime's images for a frame. They take copies of pictures of the same extent.
 #[derive(Clone)]
 pub struct Targets {
-    /// Two layers, 8 bits a channel, sRGB. Alpha is 0 where the panel is to be seen in their place, and not multiplied with them.
+    /// A layer for each of [`Headset::eyes`], 8 bits a channel, sRGB; where it is smaller than the picture, it takes its upper left
+    /// corner. Alpha is 0 where the panel is to be seen in their place, and not multiplied with them.
     pub colour: Image,
     /// Two layers of reversed depth, where the runtime takes it, of [`depth_extent`].
     pub depth: Option<Image>,

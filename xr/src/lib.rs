@@ -8,6 +8,7 @@
 //! Poses are in the stage frame: Y up, metres, -Z ahead; OpenXR's STAGE reference space with
 //! the floor at y = 0 where the runtime knows it.
 
+mod around;
 #[cfg(feature = "openxr")]
 mod entry;
 pub mod files;
@@ -23,6 +24,7 @@ mod session;
 mod source;
 pub mod track;
 
+pub use around::{Around, Line, Moves, Thing};
 #[cfg(feature = "openxr")]
 pub use entry::quiet_loader;
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};

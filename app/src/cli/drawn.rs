@@ -28,17 +28,19 @@ mod tests {
         Ok(match cli.command {
             Command::Picture(args) => args.drawn,
             Command::Replay(args) => args.drawn,
-            Command::Vr(args) => args.drawn,
+            Command::Desk(args) => args.session.drawn,
+            Command::Vr(args) => args.session.drawn,
             _ => panic!("{line} is another command"),
         })
     }
 
     /// All that draw a scene take the same rooms, and say the same of them.
     #[test]
-    fn pictures_films_and_headsets_have_the_same_rooms() {
+    fn pictures_films_and_sessions_have_the_same_rooms() {
         let lines = [
             "vitriol picture dilute --at 1 -o x.png",
             "vitriol replay dilute",
+            "vitriol desk",
             "vitriol vr",
         ];
         let mut help = Vec::new();

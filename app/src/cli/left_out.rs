@@ -16,7 +16,7 @@ const PARTS: [Part; 4] = [
     Part {
         feature: "session",
         is_in: cfg!(feature = "session"),
-        commands: &["vr"],
+        commands: &["desk", "vr"],
         options: &[],
     },
     Part {

@@ -13,6 +13,9 @@ struct Findings {
     can_replay: bool,
     /// A headset's runtime is there too.
     can_enter_vr: bool,
+    /// A screen is there for a window; absent where the build leaves sessions out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    screen: Option<bool>,
     devices: Vec<Device>,
     /// Absent where the build leaves OpenXR out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,10 +105,16 @@ fn look() -> Findings {
     Findings {
         can_replay,
         can_enter_vr,
+        screen: cfg!(feature = "session").then(has_screen),
         devices,
         openxr,
         missing,
     }
+}
+
+/// Whether there is a screen for the window of `vitriol desk`: on Linux an X server's, which it does not ask.
+fn has_screen() -> bool {
+    !cfg!(target_os = "linux") || std::env::var_os("DISPLAY").is_some()
 }
 
 /// The parts of OpenXR that are there, and those that are missing.
@@ -164,6 +173,13 @@ fn describe(findings: &Findings) -> String {
     }
     if let Some(openxr) = &findings.openxr {
         describe_openxr(openxr, &mut text);
+    }
+    if let Some(screen) = findings.screen {
+        let remedy = match screen {
+            true => "",
+            false => ": none, DISPLAY is not set; `vitriol desk` needs an X server",
+        };
+        let _ = writeln!(text, "{} screen{remedy}", mark(screen));
     }
     if !findings.missing.is_empty() {
         text.push_str("\nMissing:\n");

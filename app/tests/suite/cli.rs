@@ -94,6 +94,20 @@ fn help_names_every_subcommand_and_its_options() {
                 "--rate",
             ],
         ),
+        (
+            "desk",
+            &[
+                "--scene",
+                "--lesson",
+                "--preset",
+                "--grip",
+                "--record",
+                "--no-hints",
+                "--size",
+                "--full-screen",
+                "--device",
+            ],
+        ),
         ("track", &["--output", "--list"]),
         ("scenes", &[]),
         (

@@ -7,6 +7,8 @@ mod cli;
 mod compare;
 #[cfg(target_os = "linux")]
 mod console;
+#[cfg(target_os = "linux")]
+mod desk;
 mod docs;
 mod export;
 mod foreign;

@@ -1,7 +1,7 @@
 //! Sessions on the stand-in, with the validation layer on, and what their recordings replay to.
 
 mod breaks;
-mod common;
+pub mod common;
 #[cfg(target_os = "linux")]
 mod console;
 mod contention;
@@ -14,13 +14,13 @@ mod holdings;
 mod inset;
 mod leap;
 mod lesson;
-mod loss;
+pub mod loss;
 #[cfg(target_os = "linux")]
 mod mirror;
 mod one_hand;
 mod pace;
-mod panel;
-mod pour;
+pub mod panel;
+pub mod pour;
 mod rules;
 mod seen;
 mod spills;

@@ -1,4 +1,4 @@
-//! What someone who never held a controller does first: takes a flask, lifts it, pours, puts it down. Each is shown as a sign
+//! What someone does first who has never been at this bench: takes a flask, lifts it, pours, puts it down. Each is shown as a sign
 //! until it has been done once, in this order.
 //!
 //! It is judged by the flasks' state in the simulation, not by the buttons that were pressed. An action that implies another counts for

@@ -42,6 +42,8 @@ pub struct Info {
     pub holding: Option<u32>,
     /// The end was asked for once.
     pub ends: bool,
+    /// Whether mouse and keyboard move the hands: their keys are shown, and no button to recentre.
+    pub pointer: bool,
     /// The summary of the attempt, where the panel shows it.
     pub happened: Option<Happened>,
     /// The instructor's message and actions.

@@ -1,13 +1,14 @@
 //! In the headset: the frame loop that feeds the flasks from a live session.
 //!
-//! `session` is the loop, over the trait [`Headset`](vitriol_xr::Headset) that an OpenXR session and the stand-in
-//! implement. The other files hold its parts, which do not depend on it. `docs/headset.md` lists what happens in a
+//! `session` is the loop, over the trait [`Headset`](vitriol_xr::Headset) that an OpenXR session, the stand-in and a
+//! window implement. The other files hold its parts, which do not depend on it. `docs/headset.md` lists what happens in a
 //! frame, in that order.
 
 pub mod blame;
 pub mod clock;
 pub mod closing;
 pub mod decision;
+pub mod desk;
 pub mod fade;
 pub mod first_minute;
 pub mod foveating;

@@ -52,9 +52,35 @@ pub fn decision(key: char) -> Option<Decision> {
     }
 }
 
+/// What mouse and keyboard do in the window of a session without a headset; for a terminal, behind [`lines`].
+pub fn mouse_lines() -> String {
+    let mut text = String::from("mouse and keys, in the window:");
+    for (control, does) in [
+        (
+            "main button",
+            "takes a flask, carries it while held, puts it down; presses the panel",
+        ),
+        (
+            "right button",
+            "held and moved up or down: tilts what the hand holds",
+        ),
+        ("Q, E", "tilt to the left, to the right"),
+        ("wheel", "raises and lowers the hand"),
+        ("arrows", "move the hand; with Ctrl the view"),
+        ("Space", "takes and puts down, without the mouse"),
+        ("Tab", "the other hand"),
+        ("P, V", "the panel, the bench from the side; again: back"),
+        ("F11", "the whole screen"),
+        ("Esc", "end, pressed twice"),
+    ] {
+        text += &format!("\n  {control:<12}  {does}");
+    }
+    text
+}
+
 /// The keys and what they do, for a terminal, with the scenes' titles in `texts`; whether one lets a browser in, and how a lesson is
-/// gone through, if one is.
-pub fn lines(texts: &Texts, invites: bool, lesson: Option<Mode>) -> String {
+/// gone through, if one is. Where a `pointer` moves the hands there is nothing to recentre.
+pub fn lines(texts: &Texts, invites: bool, lesson: Option<Mode>, pointer: bool) -> String {
     let mut text = String::from("keys, each with Enter:");
     for choice in CHOICES {
         let (title, sign) = (texts.scene(choice.scene), choice.sign(lesson.is_some()));
@@ -66,6 +92,9 @@ pub fn lines(texts: &Texts, invites: bool, lesson: Option<Mode>) -> String {
         (RECENTRE, "recentre"),
         (SUMMARY, "what happened"),
     ] {
+        if pointer && key == RECENTRE {
+            continue;
+        }
         text += &format!("\n  {key}  {does}");
     }
     for act in lesson.map_or(&[][..], can_ask) {
@@ -128,21 +157,25 @@ mod tests {
     #[test]
     fn a_terminal_is_told_of_the_other_order() {
         let texts = Texts::english().unwrap();
-        assert!(lines(&texts, false, None).contains("\n  t  the other order, of a pair\n"));
+        let told = lines(&texts, false, None, false);
+        assert!(told.contains("\n  t  the other order, of a pair\n"));
+        // The view of a pointer has its own key, in the window.
+        let pointer = lines(&texts, false, None, true);
+        assert!(told.contains("\n  a  ") && !pointer.contains("\n  a  "));
     }
 
     /// Scenes have their titles in the session's language, and signs of their order but where a lesson may ask for it.
     #[test]
     fn scenes_are_told_by_their_titles() {
         let texts = Texts::of(Language::De).unwrap();
-        let free = lines(&texts, false, None);
+        let free = lines(&texts, false, None, false);
         let signed = [
             "\n  1  Säure in Wasser ✔\n",
             "\n  2  Wasser in Säure ✖\n",
             "\n  3  Säure in Wasser, im Abzug\n",
         ];
         assert!(signed.iter().all(|it| free.contains(it)), "{free}");
-        let asked = lines(&texts, false, Some(Mode::Guided));
+        let asked = lines(&texts, false, Some(Mode::Guided), false);
         let plain = ["\n  1  Säure in Wasser\n", "\n  2  Wasser in Säure\n"];
         assert!(plain.iter().all(|it| asked.contains(it)), "{asked}");
         assert!(!asked.contains(['✔', '✖']), "{asked}");
@@ -151,7 +184,8 @@ mod tests {
     #[test]
     fn a_lessons_keys_are_those_of_its_mode() {
         let texts = Texts::english().unwrap();
-        let has = |mode, key: char| lines(&texts, false, mode).contains(&format!("\n  {key}  "));
+        let has =
+            |mode, key: char| lines(&texts, false, mode, false).contains(&format!("\n  {key}  "));
         let keys = |mode| [HINT, SKIP, FINISH].map(|key| has(mode, key));
         assert_eq!(keys(None), [false; 3]);
         assert_eq!(keys(Some(Mode::Guided)), [true, true, false]);

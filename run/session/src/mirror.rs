@@ -1,4 +1,4 @@
-//! The mirror: what the left eye sees, in a window on the computer.
+//! The mirror: what the left eye sees, in a window on the computer; and the window of a desk, which has no other picture.
 //!
 //! The window is filled by softbuffer and not by a swapchain, for three reasons. The runtime chooses the device, and the
 //! screen may hang on another. A lost device is made anew, and the window stays. A swapchain that waits for the screen's
@@ -11,15 +11,14 @@ use vitriol_gpu::{Gpu, Image};
 use vitriol_run::Failure;
 use vitriol_shaders::Library;
 
-pub use self::shrink::{Shrink, Shrunk};
+pub use self::shrink::{LONGEST, Shrink, Shrunk};
 use self::window::Say;
 pub use self::window::Window;
+pub(crate) use self::window::{Display, Extent, Opening};
 use super::info::Info;
 
-/// Display time between two of the window's pictures, ns: 30 a second.
-const EVERY: i64 = 1_000_000_000 / 30;
-
-/// Shows the left eye's picture in a window on the computer, 30 times a second of display time.
+/// Shows the left eye's picture in a window on the computer, 30 times a second of display time; at a desk, whose only picture that is, as
+/// often as one comes.
 pub struct Mirror {
     window: Window,
     shrink: Shrink,
@@ -40,8 +39,8 @@ impl Mirror {
         window: Window,
     ) -> Result<Self, Failure> {
         Ok(Self {
+            shrink: Shrink::new(gpu, library, eye, window.longest)?,
             window,
-            shrink: Shrink::new(gpu, library, eye)?,
             due: i64::MIN,
             title: String::new(),
         })
@@ -52,7 +51,7 @@ impl Mirror {
     /// # Errors
     /// As for [`Mirror::new`].
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
-        self.shrink = Shrink::new(gpu, library, eye)?;
+        self.shrink = Shrink::new(gpu, library, eye, self.window.longest)?;
         self.due = i64::MIN;
         Ok(())
     }
@@ -66,11 +65,12 @@ impl Mirror {
         let Some(extent) = self.window.extent() else {
             return Ok(());
         };
+        let every = self.window.every;
         // Display times are rounded. With this margin it is every third frame at 90 Hz, and never the fourth.
-        if time < self.due.saturating_sub(EVERY / 8) {
+        if time < self.due.saturating_sub(every / 8) {
             return Ok(());
         }
-        self.due = time.max(self.due.saturating_add(EVERY));
+        self.due = time.max(self.due.saturating_add(every));
         self.shrink.begin(picture, drawn, extent)
     }
 

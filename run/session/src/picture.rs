@@ -1,4 +1,4 @@
-//! The picture for both eyes, drawn while the next steps are solved.
+//! The picture for both eyes or for a screen, drawn while the next steps are solved.
 
 use glam::Affine3A;
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
@@ -25,6 +25,8 @@ const UNDER_WAY: usize = 2;
 /// What pictures are made for.
 #[derive(Clone, Debug)]
 pub struct Eyes {
+    /// How many there are: two eyes, or one picture on a screen.
+    pub views: u32,
     /// Width and height of each, pixels.
     pub extent: [u32; 2],
     /// Width and height of each picture of a second pair, the inset, pixels, where there is one.
@@ -39,6 +41,7 @@ impl Eyes {
     /// The pictures of a headset.
     pub fn of(headset: &dyn Headset, foveating: Option<Foveating>) -> Self {
         Self {
+            views: headset.eyes().clamp(1, 2),
             extent: headset.extent(),
             inset: headset.inset().map(|inset| inset.extent),
             hidden: headset.hidden_area(),
@@ -62,8 +65,10 @@ impl Eyes {
     }
 }
 
-/// Draws a world for two eyes, with the hands.
+/// Draws a world for two eyes or for a screen, with the hands.
 pub struct Picture {
+    /// How many views it has.
+    views: usize,
     renderer: Renderer,
     half_depth: HalfDepth,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
@@ -103,7 +108,7 @@ impl Subject {
 pub struct Outlook {
     /// Width and height as drawn, pixels: at most those that pictures are made for.
     pub extent: [u32; 2],
-    /// Both eyes in the scene's stage, real metres.
+    /// Both eyes in the scene's stage, real metres. Of a screen the first is drawn.
     pub views: [View; 2],
 }
 
@@ -138,7 +143,9 @@ impl Picture {
     /// An error of the device.
     pub fn hide(&mut self, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
         let [left, right] = hidden;
-        self.renderer.set_visibility_mask(&[left, right]).other()
+        let masks: [&[[f32; 2]]; 2] = [left, right];
+        let masks = &masks[..self.views];
+        self.renderer.set_visibility_mask(masks).other()
     }
 
     /// Pictures of a scene.
@@ -153,7 +160,7 @@ impl Picture {
         eyes: &Eyes,
     ) -> Result<Self, Failure> {
         let desc = RenderDesc {
-            views: 2,
+            views: eyes.views,
             liquid: Some(subject.liquid),
             foveated: eyes.inset.is_none() && may_foveate(eyes.foveating, scene),
             ..RenderDesc::film(eyes.largest())
@@ -166,6 +173,7 @@ impl Picture {
             bytes.map(both).transpose()
         };
         let mut picture = Self {
+            views: desc.views as usize,
             half_depth: HalfDepth::new(gpu, library, desc.extent, desc.views).other()?,
             renderer,
             puffs: copies("puffs, drawn", subject.puffs)?,
@@ -234,7 +242,7 @@ impl Picture {
         // The inset first: what stays in the renderer's image is the eyes' picture, which others look at.
         if let (Some(outlook), Some(inset)) = (&sight.inset, &targets.inset) {
             let images = (&inset.colour, inset.depth.as_ref());
-            let whole = Some(&sight.eyes.views[..]);
+            let whole = Some(&sight.eyes.views[..self.views]);
             self.pair(&mut rec, world, sight, (outlook, whole), images)?;
         }
         let images = (&targets.colour, targets.depth.as_ref());
@@ -259,7 +267,7 @@ impl Picture {
         let record = |frame: &FrameDesc<'_>| {
             let frame = FrameDesc {
                 extent: Some(outlook.extent),
-                views: &outlook.views,
+                views: &outlook.views[..self.views],
                 part_of,
                 ..*frame
             };
@@ -298,7 +306,7 @@ impl Picture {
         })
     }
 
-    /// The colour image, a layer an eye.
+    /// The colour image, a layer a view.
     pub fn image(&self) -> &Image {
         self.renderer.image()
     }
@@ -315,9 +323,10 @@ impl Picture {
             stage_from_eye: Affine3A::IDENTITY,
             fov: Fov::symmetric(1.0, 1.0),
         };
+        let nowhere = [nowhere; 2];
         let frame = FrameDesc {
             extent: None,
-            views: &[nowhere; 2],
+            views: &nowhere[..self.views],
             vessels: &vessels,
             shards: &shards(world),
             particles: None,

@@ -1,6 +1,7 @@
 //! The session: from its first frame to its end, through whatever turns the runtime takes. A frame is in `frame`, with
 //! the parts that it goes through, each in a file of its own.
 
+mod around;
 mod benches;
 mod checkpoints;
 mod choices;
@@ -85,6 +86,9 @@ pub struct Options {
     pub posture: Posture,
     /// How hands grip.
     pub grip: Grip,
+    /// Whether mouse and keyboard move the hands: signs and panel show these in place of controllers, nothing is recentred, and it is
+    /// the headset that keeps a hand closed from one press to the next.
+    pub pointer: bool,
     /// Frames that are measured, after which the session ends; `None` for as long as the user likes.
     pub frames: Option<u64>,
     /// The track to be made.
@@ -208,6 +212,8 @@ pub struct Session {
     losses: Losses,
     /// The texts in the user's language.
     texts: Texts,
+    /// Whether mouse and keyboard move the hands.
+    pointer: bool,
 }
 
 impl Session {
@@ -221,8 +227,9 @@ impl Session {
         decisions: Receiver<Decision>,
     ) -> Result<Self, Failure> {
         let gpu = headset.gpu();
-        // Without a governor nothing gives way.
-        let fixed = (!options.governed).then_some(Foveating::Off);
+        // Without a governor nothing gives way. On a screen one looks anywhere.
+        let even = !options.governed || headset.eyes() == 1;
+        let fixed = even.then_some(Foveating::Off);
         let foveating = options.foveating.or(fixed);
         let (benches, world) = Benches::new(headset, &options.plan, foveating)?;
         let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
@@ -232,7 +239,8 @@ impl Session {
         let texts = Texts::of(options.language)?;
         let panel = Panel::new(gpu, &benches.library)?.in_words(&texts.panel);
         let toggles = options.grip == Grip::Toggle;
-        let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
+        let pressed = (toggles, options.pointer);
+        let hints = Hints::new(options.hints, pressed, gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
         let mut run = Run::new(&options.plan.scene, world);
         if let Some(file) = &options.record {
@@ -266,7 +274,7 @@ impl Session {
             placement: Placement::new(options.posture),
             fade: Fade::default(),
             handles: Handles::default(),
-            latches: toggles.then(Latches::default),
+            latches: (toggles && !options.pointer).then(Latches::default),
             joints: [None; 2],
             steps: Steps::new(),
             run,
@@ -287,10 +295,11 @@ impl Session {
             renewals: 0,
             losses: Losses::default(),
             texts,
+            pointer: options.pointer,
         })
     }
 
-    /// This session, with the left eye's picture shown in `window`.
+    /// This session, with the left eye's picture, or a screen's, shown in `window`.
     ///
     /// # Errors
     /// An error of the device.
@@ -329,6 +338,7 @@ impl Session {
                     }
                 }
                 Turn::Paused { cause } => self.pause(match cause {
+                    _ if self.pointer => "paused",
                     Pause::Off => "the headset is off",
                     Pause::Unseen => "the headset is not seen yet",
                 })?,
@@ -336,7 +346,7 @@ impl Session {
                     if !std::mem::replace(&mut lost, true) {
                         tracing::warn!("{cause}; the experiment waits where it is");
                     }
-                    self.pause("the headset is lost")?;
+                    self.pause(self.lost())?;
                 }
                 Turn::Renewed => {
                     lost = false;
@@ -359,6 +369,14 @@ impl Session {
         Ok(())
     }
 
+    /// What is lost where the pictures have nowhere to go.
+    fn lost(&self) -> &'static str {
+        match self.pointer {
+            true => "the graphics card failed",
+            false => "the headset is lost",
+        }
+    }
+
     /// The headset shows nothing, for this reason: time stands still.
     fn pause(&mut self, why: &str) -> Result<(), Failure> {
         let info = self.info();
@@ -378,7 +396,7 @@ impl Session {
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
-        self.pause("the headset was lost")?;
+        self.pause(self.lost())?;
         self.renewals += 1;
         if !self.run.world.gpu().is_lost() {
             self.observe(true)?;

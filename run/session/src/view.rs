@@ -7,7 +7,7 @@ use vitriol_gpu::{Gpu, Image};
 use vitriol_run::Failure;
 use vitriol_shaders::Library;
 
-use super::mirror::Shrink;
+use super::mirror::{LONGEST, Shrink};
 use vitriol_live::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
 
 /// Display time between two pictures, ns.
@@ -30,7 +30,7 @@ impl View {
     /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2], port: &Port) -> Result<Self, Failure> {
         Ok(Self {
-            shrink: Shrink::new(gpu, library, eye)?,
+            shrink: Shrink::new(gpu, library, eye, LONGEST)?,
             coder: Coder::new(port)?,
             due: i64::MIN,
             began: Instant::now(),
@@ -42,7 +42,7 @@ impl View {
     /// # Errors
     /// An error of the device.
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
-        self.shrink = Shrink::new(gpu, library, eye)?;
+        self.shrink = Shrink::new(gpu, library, eye, LONGEST)?;
         self.due = i64::MIN;
         Ok(())
     }

@@ -329,6 +329,7 @@ pub fn options_where(folder: &Path, change: impl Fn(String) -> String) -> Option
         },
         posture: Posture::Seated,
         grip: Grip::Hold,
+        pointer: false,
         frames: None,
         record: Some(folder.join("session.mcap")),
         // What a software driver takes is no matter to most.
@@ -363,11 +364,17 @@ pub fn session_with(
     let file = options.record.clone().unwrap();
     let session = Session::new(headset, options, decisions).unwrap();
     let outcome = hearing(|| session.run(headset)).unwrap();
+    let track = recording(&outcome, &file);
+    (outcome, track)
+}
+
+/// The recording of a session that has ended, which is whole.
+pub fn recording(outcome: &SessionOutcome, file: &Path) -> Track {
     let recorded = outcome.recorded.as_ref().unwrap();
     assert_eq!((recorded.steps, recorded.unwritten), (outcome.steps, 0));
-    let track = Track::open(&file).unwrap();
+    let track = Track::open(file).unwrap();
     assert!(!track.recovered);
-    (outcome, track)
+    track
 }
 
 /// The scenes that a recording carries.

@@ -54,6 +54,7 @@ fn info() -> Info {
         coming: Some("acid-into-water".into()),
         holding: Some(65),
         ends: true,
+        pointer: false,
         happened: None,
         told: Told::default(),
         lesson: None,
@@ -101,6 +102,17 @@ fn press(panel: &mut Panel, at: [f32; 2], seconds: f64) -> Option<Decision> {
 
 /// The same of a hand at a place of the scene's stage.
 pub fn press_from(panel: &mut Panel, from: Vec3, at: [f32; 2], seconds: f64) -> Option<Decision> {
+    press_in(panel, &info(), from, at, seconds)
+}
+
+/// The same of a panel that shows `info`.
+fn press_in(
+    panel: &mut Panel,
+    info: &Info,
+    from: Vec3,
+    at: [f32; 2],
+    seconds: f64,
+) -> Option<Decision> {
     let mut decided = None;
     // Ten frames a second.
     let pulled = (10.0 * seconds) as i64;
@@ -112,7 +124,7 @@ pub fn press_from(panel: &mut Panel, from: Vec3, at: [f32; 2], seconds: f64) -> 
         };
         let hand = pointing_from(from, at, trigger);
         let now = 100_000_000 * frame;
-        let said = panel.update([None, Some(&hand)], &info(), now);
+        let said = panel.update([None, Some(&hand)], info, now);
         assert!(decided.is_none() || said.is_none(), "pressed twice");
         decided = decided.or(said);
     }
@@ -356,9 +368,25 @@ fn the_panel_is_legible() {
 
 /// A place within the button that decides this, pixels, found by pressing.
 pub fn place_of(gpu: &Gpu, decision: &Decision) -> [f32; 2] {
+    place_in(gpu, &info(), decision)
+}
+
+/// The same on the panel of who has mouse and keyboard.
+#[cfg(target_os = "linux")]
+pub fn place_at_desk(gpu: &Gpu, decision: &Decision) -> [f32; 2] {
+    let info = Info {
+        pointer: true,
+        ..info()
+    };
+    place_in(gpu, &info, decision)
+}
+
+fn place_in(gpu: &Gpu, info: &Info, decision: &Decision) -> [f32; 2] {
     let mut panel = Panel::new(gpu, &Library::embedded()).unwrap();
-    panel.update([None, None], &info(), 0);
-    let found = places(6).find(|&at| press(&mut panel, at, 1.2).as_ref() == Some(decision));
+    let from = scene_from_panel().transform_point(Vec3::new(0.1, -0.2, 0.5));
+    panel.update([None, None], info, 0);
+    let found =
+        places(6).find(|&at| press_in(&mut panel, info, from, at, 1.2).as_ref() == Some(decision));
     // Not at its edge.
     let [x, y] = found.unwrap();
     [x, y + 15.0]

@@ -164,6 +164,7 @@ fn a_bench_waits_twice_for_the_device_and_its_like_compiles_nothing() {
     let plan = options(folder.path()).plan;
     let library = Library::embedded();
     let eyes = Eyes {
+        views: 2,
         extent: [64, 64],
         inset: None,
         hidden: [Vec::new(), Vec::new()],

@@ -9,9 +9,9 @@ use vitriol_live::RawPicture;
 use vitriol_run::{Blame, Failure};
 use vitriol_shaders::{Library, layout, mirror};
 
-/// Longest side of the window's picture, pixels: as high as an ordinary screen. A larger window
+/// Longest side of a mirror's picture, pixels: as high as an ordinary screen. A larger window
 /// scales it up.
-const LONGEST: u32 = 1080;
+pub const LONGEST: u32 = 1080;
 
 /// Buffers that a picture can be in: one is filled by the device, one is copied by the window's thread, one is spare.
 const SLOTS: usize = 3;
@@ -54,13 +54,13 @@ pub struct Shrink {
 }
 
 impl Shrink {
-    /// For pictures of `eye` pixels an eye.
+    /// For pictures of `eye` pixels an eye, whose sides are `longest` pixels at most as they are shrunk.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<Self, Failure> {
+    pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2], longest: u32) -> Result<Self, Failure> {
         let compiled = library.compile(&mirror::MIRROR, "main", &[]).other()?;
-        let most = fit(eye, eye.map(|side| side.min(LONGEST)));
+        let most = fit(eye, eye.map(|side| side.min(longest)));
         let bytes = 4 * u64::from(most[0]) * u64::from(most[1]);
         let slot = || Buffer::readback(gpu, "mirror, for the window", bytes).other();
         Ok(Self {

@@ -1,5 +1,8 @@
 //! The window, on a thread of its own, so that the frame loop never waits for the screen or its server.
 
+mod keys;
+mod lay;
+
 use std::num::NonZeroU32;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -16,14 +19,19 @@ use winit::error::EventLoopError;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopProxy};
 use winit::keyboard::Key;
-use winit::window::{Window as Frame, WindowId};
+use winit::window::{Fullscreen, Window as Frame, WindowId};
 
-use super::shrink::{Shrunk, fit};
+use self::keys::{Listener, Outcome};
+use self::lay::lay;
+use super::shrink::{LONGEST, Shrunk, fit};
 use crate::decision::Decision;
+use crate::desk::input::Input;
 use crate::menu;
 
 /// Longest side of the window when it opens, pixels.
 const OPENS_AT: u32 = 800;
+/// Display time between two pictures of a mirror, ns: 30 a second.
+const EVERY: i64 = 1_000_000_000 / 30;
 /// Longest wait for the screen's server, at the beginning and at the end.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -44,11 +52,34 @@ pub struct Window {
     /// Disconnected when the thread has ended.
     ended: Receiver<()>,
     thread: Option<JoinHandle<()>>,
+    /// Display time between two pictures, ns.
+    pub(super) every: i64,
+    /// Longest side of a picture, pixels.
+    pub(super) longest: u32,
+}
+
+/// How a desk's window opens.
+pub(crate) struct Opening {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Whether it fills the screen.
+    pub full_screen: bool,
+    /// Where mouse and keyboard are sent. It is disconnected once the window is closed.
+    pub input: Sender<Input>,
+}
+
+/// The display that a window is on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Display {
+    /// Width and height, pixels; `None` where it is unknown.
+    pub size: Option<[u32; 2]>,
+    /// Pictures in a thousand seconds; `None` where that is unknown.
+    pub rate_mhz: Option<u32>,
 }
 
 /// Width and height of the window; 0 once it is closed.
 #[derive(Default)]
-struct Extent(AtomicU64);
+pub(crate) struct Extent(AtomicU64);
 
 impl Extent {
     fn set(&self, [width, height]: [u32; 2]) {
@@ -56,7 +87,8 @@ impl Extent {
         self.0.store(both, Ordering::Relaxed);
     }
 
-    fn get(&self) -> Option<[u32; 2]> {
+    /// Both, pixels; `None` once it is closed, or while it is minimised to nothing.
+    pub fn get(&self) -> Option<[u32; 2]> {
         let both = self.0.load(Ordering::Relaxed);
         let extent = [(both >> 32) as u32, both as u32];
         (!extent.contains(&0)).then_some(extent)
@@ -81,13 +113,39 @@ impl Window {
     /// # Errors
     /// Why there is none: no screen, or none that can be used.
     pub fn open(eye: [u32; 2], decisions: Sender<Decision>) -> Result<Self, Failure> {
+        let asked = Asked::new(fit(eye, [OPENS_AT; 2]), decisions);
+        Self::show(asked, (EVERY, LONGEST))
+    }
+
+    /// A window that takes mouse and keyboard, and the display that it is on. It takes pictures of any size, as many as come.
+    ///
+    /// # Errors
+    /// As for [`Window::open`].
+    pub(crate) fn of_desk(
+        opening: Opening,
+        decisions: Sender<Decision>,
+    ) -> Result<(Self, Display), Failure> {
+        let (opened, display) = channel();
+        let asked = Asked {
+            full_screen: opening.full_screen,
+            listener: Some(Listener::new(opening.input)),
+            opened: Some(opened),
+            ..Asked::new(opening.size, decisions)
+        };
+        let window = Self::show(asked, (0, u32::MAX))?;
+        let display = display.recv_timeout(PATIENCE);
+        let display = display.map_err(|_| "the screen shows no window").other()?;
+        Ok((window, display))
+    }
+
+    /// Shows it on a thread of its own. Between its pictures is `every` (ns) at least, and their sides are `longest` (pixels) at most.
+    fn show(asked: Asked, (every, longest): (i64, u32)) -> Result<Self, Failure> {
         // winit's own message for this names a line of its source.
         if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() {
             return Err("there is no X server (DISPLAY is not set)").other();
         }
-        let extent = Arc::new(Extent::default());
-        extent.set(fit(eye, [OPENS_AT; 2]));
-        let (shared, (opened, opening)) = (Arc::clone(&extent), channel());
+        let extent = Arc::clone(&asked.extent);
+        let (opened, opening) = channel();
         let (end, ended) = channel();
         let leaving = Leaving {
             extent: Arc::clone(&extent),
@@ -109,8 +167,7 @@ impl Window {
                     return;
                 }
                 let mut face = Face {
-                    extent: shared,
-                    decisions,
+                    asked,
                     frame: None,
                     shown: None,
                 };
@@ -126,12 +183,19 @@ impl Window {
             extent,
             ended,
             thread: Some(thread),
+            every,
+            longest,
         })
     }
 
     /// Its width and height, pixels; `None` once it is closed, or while it is minimised to nothing.
     pub fn extent(&self) -> Option<[u32; 2]> {
         self.extent.get()
+    }
+
+    /// The same as it changes.
+    pub(crate) fn shared_extent(&self) -> Arc<Extent> {
+        Arc::clone(&self.extent)
     }
 
     /// Sends it a message, which is lost if it is closed.
@@ -165,10 +229,37 @@ fn event_loop() -> Result<EventLoop<Say>, EventLoopError> {
 /// The window's pixels in memory.
 type Pixels = Surface<Rc<Frame>, Rc<Frame>>;
 
-/// The window on its own thread.
-struct Face {
+/// What a window is to be.
+struct Asked {
+    /// Its size, which it opens with.
     extent: Arc<Extent>,
     decisions: Sender<Decision>,
+    /// Whether it opens over all of the screen.
+    full_screen: bool,
+    /// Takes mouse and keys, of a desk's window.
+    listener: Option<Listener>,
+    /// Where the display is sent once it is open.
+    opened: Option<Sender<Display>>,
+}
+
+impl Asked {
+    /// A mirror of that size, pixels.
+    fn new(size: [u32; 2], decisions: Sender<Decision>) -> Self {
+        let extent = Arc::new(Extent::default());
+        extent.set(size);
+        Self {
+            extent,
+            decisions,
+            full_screen: false,
+            listener: None,
+            opened: None,
+        }
+    }
+}
+
+/// The window on its own thread.
+struct Face {
+    asked: Asked,
     frame: Option<(Rc<Frame>, Pixels)>,
     /// The last picture, 0x00RRGGBB row by row, and its width and height.
     shown: Option<(Vec<u32>, [u32; 2])>,
@@ -179,16 +270,62 @@ type WindowResult = Result<(), Box<dyn std::error::Error>>;
 
 impl Face {
     fn open(&mut self, events: &ActiveEventLoop) -> WindowResult {
-        let [width, height] = self.extent.get().unwrap_or([OPENS_AT; 2]);
+        let asked = &mut self.asked;
+        let [width, height] = asked.extent.get().unwrap_or([OPENS_AT; 2]);
+        let whole = asked.full_screen.then_some(Fullscreen::Borderless(None));
         let wanted = Frame::default_attributes()
             .with_title("Vitriol")
-            .with_inner_size(PhysicalSize::new(width, height));
+            .with_inner_size(PhysicalSize::new(width, height))
+            .with_fullscreen(whole);
         let frame = Rc::new(events.create_window(wanted)?);
         let context = Context::new(Rc::clone(&frame))?;
         let surface = Surface::new(&context, Rc::clone(&frame))?;
-        self.extent.set(frame.inner_size().into());
+        asked.extent.set(frame.inner_size().into());
+        if let Some(opened) = asked.opened.take() {
+            let monitor = frame.current_monitor().or_else(|| frame.primary_monitor());
+            let size = monitor.as_ref().map(|monitor| monitor.size().into());
+            let rate_mhz = monitor.and_then(|monitor| monitor.refresh_rate_millihertz());
+            // Where nobody waits any more, the window is closed soon.
+            let _ = opened.send(Display { size, rate_mhz });
+        }
         self.frame = Some((frame, surface));
         Ok(())
+    }
+
+    /// Takes an event of a desk's window; in a mirror keys decide.
+    fn take(&mut self, event: &WindowEvent) {
+        let Some((frame, _)) = &self.frame else {
+            return;
+        };
+        let asked = &mut self.asked;
+        let decided = if let Some(listener) = &mut asked.listener {
+            let size = (asked.extent.get()).unwrap_or_else(|| frame.inner_size().into());
+            // The first picture will fill the window.
+            let extent = self.shown.as_ref().map_or(size, |(_, extent)| *extent);
+            match event {
+                // What nobody sees need not be drawn.
+                WindowEvent::Occluded(true) => asked.extent.set([0, 0]),
+                WindowEvent::Occluded(false) | WindowEvent::Focused(true) => {
+                    asked.extent.set(frame.inner_size().into());
+                }
+                _ => {}
+            }
+            match listener.take(event, size, extent) {
+                Outcome::Taken => None,
+                Outcome::Decided(decision) => Some(decision),
+                Outcome::FullScreen => {
+                    let whole = frame.fullscreen().is_none();
+                    frame.set_fullscreen(whole.then_some(Fullscreen::Borderless(None)));
+                    None
+                }
+            }
+        } else {
+            decision(event)
+        };
+        if let Some(decision) = decided {
+            // A session that has ended takes no decisions.
+            let _ = asked.decisions.send(decision);
+        }
     }
 
     /// Shows the last picture, as large as it fits, in the middle.
@@ -226,7 +363,7 @@ impl Face {
         Ok(())
     }
 
-    /// Closes the window where it cannot go on. The session goes on.
+    /// Closes the window where it cannot go on. The session goes on, but at a desk.
     fn settle(&mut self, events: &ActiveEventLoop, outcome: WindowResult) {
         if let Err(error) = outcome {
             tracing::warn!("the mirror window is closed: {error}");
@@ -255,14 +392,14 @@ impl ApplicationHandler<Say> for Face {
     /// Drops the window while the event loop still runs, which sends that to the screen.
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.frame = None;
-        self.extent.set([0, 0]);
+        self.asked.extent.set([0, 0]);
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => {
-                self.extent.set(size.into());
+                self.asked.extent.set(size.into());
                 if let Some((frame, _)) = &self.frame {
                     frame.request_redraw();
                 }
@@ -271,58 +408,20 @@ impl ApplicationHandler<Say> for Face {
                 let drawn = self.draw();
                 self.settle(events, drawn);
             }
-            WindowEvent::KeyboardInput { event, .. } => {
-                if let Key::Character(text) = &event.logical_key
-                    && event.state.is_pressed()
-                    && !event.repeat
-                    && let Some(decision) = text.chars().next().and_then(menu::decision)
-                {
-                    // A session that has ended takes no decisions.
-                    let _ = self.decisions.send(decision);
-                }
-            }
-            _ => {}
+            event => self.take(&event),
         }
     }
 }
 
-/// Lays `picture` as large as it fits in the middle of `window`.
-fn lay(window: &mut [u32], [width, height]: [u32; 2], picture: &[u32], extent: [u32; 2]) {
-    let [across, down] = fit(extent, [width, height]).map(|side| side as usize);
-    let [width, height] = [width as usize, height as usize];
-    let [columns, rows] = extent.map(|side| side as usize);
-    let (across, down) = (across.min(width), down.min(height));
-    let (left, upper) = ((width - across) / 2, (height - down) / 2);
-    for (y, line) in window
-        .chunks_exact_mut(width)
-        .skip(upper)
-        .take(down)
-        .enumerate()
-    {
-        let row = &picture[columns * (y * rows / down)..][..columns];
-        for (x, pixel) in line[left..left + across].iter_mut().enumerate() {
-            *pixel = row[x * columns / across];
+/// What a key in a mirror decides.
+fn decision(event: &WindowEvent) -> Option<Decision> {
+    let WindowEvent::KeyboardInput { event, .. } = event else {
+        return None;
+    };
+    match &event.logical_key {
+        Key::Character(text) if event.state.is_pressed() && !event.repeat => {
+            text.chars().next().and_then(menu::decision)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::lay;
-
-    #[test]
-    fn a_picture_lies_in_the_middle() {
-        // 2 × 1 in 5 × 4: twice as large, a row above and one below, a column at the right.
-        let mut window = [0; 20];
-        lay(&mut window, [5, 4], &[1, 2], [2, 1]);
-        let rows: Vec<&[u32]> = window.chunks(5).collect();
-        // 5 / 2 = 2.5 times: 5 × 3 (2.5 rounded), of which the first three columns are the first.
-        assert_eq!(rows[0], [1, 1, 1, 2, 2]);
-        assert_eq!(rows[2], [1, 1, 1, 2, 2]);
-        assert_eq!(rows[3], [0; 5]);
-        // Its own size: as it is.
-        let mut window = [0; 6];
-        lay(&mut window, [3, 2], &[1, 2, 3, 4, 5, 6], [3, 2]);
-        assert_eq!(window, [1, 2, 3, 4, 5, 6]);
+        _ => None,
     }
 }

@@ -7,7 +7,6 @@ use vitriol_lesson::{Language, Lesson};
 use super::PANEL;
 use super::lesson::label;
 use super::view::{BESIDE, scene_text, style};
-use crate::menu::END;
 use vitriol_run::choices::{CHOICES, on_panel};
 use vitriol_run::texts::{PanelTexts, Texts};
 
@@ -140,7 +139,7 @@ fn each_note_takes_two_lines_at_most() {
         let notes = [
             words.hold.clone(),
             words.coming("acid-into-water"),
-            words.ends(END),
+            words.ends("Esc"),
             words.recording(3599),
             words.waits.clone(),
             words.unwritten(9999),
@@ -156,7 +155,7 @@ fn each_note_takes_two_lines_at_most() {
     }
 }
 
-/// What the instructor did, and the summary's own words, over the panel's whole width.
+/// What the instructor did, the summary's own words, and what mouse and keys do, over the panel's whole width.
 #[test]
 fn each_announcement_has_a_line() {
     let context = context();
@@ -172,6 +171,7 @@ fn each_announcement_has_a_line() {
             words.held.clone(),
             words.end.clone(),
             texts.summary.nothing.clone(),
+            texts.panel.mouse.clone(),
         ];
         let instructions = {
             use vitriol_run::Action as It;

@@ -283,6 +283,27 @@ mod tests {
         assert!(has(&quiet, "117"));
     }
 
+    /// Where a mouse moves the hands, its line stands under all buttons, and none recentres.
+    #[test]
+    fn a_mouse_has_a_line_under_the_buttons() {
+        let words = vitriol_run::texts::Texts::english().unwrap().panel;
+        let of = |pointer| {
+            texts(&Info {
+                pointer,
+                ends: true,
+                ..with(longest(Language::En))
+            })
+        };
+        let (seen, worn) = (of(true), of(false));
+        let has = |found: &[(String, Rect)], part: &str| found.iter().any(|it| it.0.contains(part));
+        assert!(has(&worn, &words.recentre) && !has(&worn, &words.mouse));
+        assert!(!has(&seen, &words.recentre) && has(&seen, &words.ends("Esc")));
+        let (line, others): (Vec<_>, Vec<_>) = seen.into_iter().partition(|it| it.0 == words.mouse);
+        let lowest = others.iter().map(|it| it.1.max.y).fold(0.0, f32::max);
+        assert_eq!(line.len(), 1);
+        assert!(line[0].1.min.y >= lowest, "{line:?} {lowest}");
+    }
+
     /// A button changes to the other order, where scenes can be chosen. It keeps its place where the scene has no other order.
     #[test]
     fn scenes_have_a_button_for_the_other_order() {

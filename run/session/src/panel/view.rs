@@ -76,6 +76,9 @@ pub fn show(
 ) -> Seen {
     let mut seen = Seen::default();
     told(context, info, &mut seen);
+    if info.pointer {
+        mouse(context, info, words);
+    }
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         match &info.happened {
@@ -126,6 +129,26 @@ fn told(context: &Context, info: &Info, seen: &mut Seen) {
     });
 }
 
+/// What mouse and keys do, under all else. A summary and an instructor's longest message need its room.
+fn mouse(context: &Context, info: &Info, words: &PanelTexts) {
+    if info.happened.is_some() || info.told.message.is_some() {
+        return;
+    }
+    let frame = Frame::new().inner_margin(Margin::symmetric(22, 6));
+    let strip = TopBottomPanel::bottom("mouse").frame(frame.fill(SAID));
+    strip.show_separator_line(false).show(context, |ui| {
+        ui.label(RichText::new(&words.mouse).color(WHITE));
+    });
+}
+
+/// The key that ends the session, as a note names it.
+fn end_key(info: &Info) -> String {
+    match info.pointer {
+        true => "Esc".to_owned(),
+        false => menu::END.to_string(),
+    }
+}
+
 /// A ring that fills from its top, clockwise.
 fn filling(painter: &Painter, middle: Pos2, radius: f32, share: f32) {
     painter.circle_stroke(middle, radius, Stroke::new(6.0, Color32::from_gray(70)));
@@ -168,7 +191,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     }
     lines(ui, [happened.more.clone()], FAINT);
     ui.add_space(8.0);
-    let ends = (info.ends).then(|| words.ends(menu::END));
+    let ends = (info.ends).then(|| words.ends(&end_key(info)));
     lines(ui, [ends], WARNING);
     let size = vec2(0.5 * ui.available_width(), LOW);
     let key = menu::SUMMARY.to_ascii_uppercase();
@@ -224,7 +247,7 @@ fn state(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     let ends = info.ends;
     let before = [
         coming.map(|coming| words.coming(coming)),
-        ends.then(|| words.ends(menu::END)),
+        ends.then(|| words.ends(&end_key(info))),
     ];
     lines(ui, before, WARNING);
     lines(ui, [info.heard.clone()], WHITE);
@@ -345,8 +368,10 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
         ui.add_enabled_ui(on, |ui| button(ui, (other, LOW), false, Decision::Toggle));
     }
     ui.add_space(10.0);
-    let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
-    button(ui, (recentre, LOW), false, Decision::Recentre);
+    if !info.pointer {
+        let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
+        button(ui, (recentre, LOW), false, Decision::Recentre);
+    }
     if !shown.is_some_and(|it| it.quiet) {
         let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
         button(ui, (summary, LOW), false, Decision::Summary);

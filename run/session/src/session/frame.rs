@@ -4,20 +4,17 @@ use std::time::Instant;
 
 use vitriol_gpu::{LockWaits, Ticket};
 use vitriol_render::camera::NEAR;
-use vitriol_run::scenery::has_acid;
 use vitriol_run::{Action, Carriers, Failure, Looked};
-use vitriol_sim::scene::PictureTint;
-use vitriol_sim::solver::Skin;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, Inset, PoseFrame, Shown, Side, Targets, View};
 
 use super::Session;
+use super::around;
 use super::ended::NoFrameOpen;
 use crate::blame::blame;
 use crate::closing;
 use crate::decision::Decision;
 use crate::haptics;
-use crate::info::{Info, Lying};
 use crate::inputs::sound;
 use crate::ladder::Setting;
 use crate::panel;
@@ -25,9 +22,6 @@ use crate::picture::{self, Outlook, Sight, eye};
 use crate::sign::{Drawn, Sign};
 use crate::tally::Submitted;
 use crate::workbench::TAKEN_UP;
-
-/// Steps in which the panel's rings fill, per cent: the panel is drawn anew for each.
-const RING: u32 = 5;
 
 impl Session {
     /// One frame, which the headset's `next` has begun: item 1 of the list. Between there and the end nothing waits
@@ -70,7 +64,10 @@ impl Session {
                 latches.apply(side, &mut now.hands[side as usize], holds);
             }
         }
-        self.move_bench(&now)?;
+        // A table's height is no matter of a screen, whose view goes up and down instead.
+        if headset.eyes() > 1 {
+            self.move_bench(&now)?;
+        }
         let scene_from_stage = self.placement.stage_from_scene().inverse();
         self.joints = frame.joints.each_ref().map(|joints| {
             let joints = joints.as_ref()?.0;
@@ -125,7 +122,9 @@ impl Session {
         if let Some(rate) = self.pacing.wants_rate.take() {
             headset.request_rate(rate).map_err(blame)?;
         }
-        // 11. What the lenses hide.
+        // 11. Where the bodies are, for who points at them; and what the lenses hide.
+        let placed = self.placement.stage_from_scene();
+        headset.around(around::of(&self.run.world, &placed));
         self.benches.take_mask(headset, &no_frame)
     }
 
@@ -157,7 +156,8 @@ impl Session {
                         self.run.act(action)?;
                     }
                 }
-                Decision::Recentre => recentre = true,
+                // On a screen the view goes round the bench: a bench that followed it would leave the hands behind.
+                Decision::Recentre => recentre |= headset.eyes() > 1,
                 Decision::Summary if self.guide.tells(&self.run) => self.summary.toggle(),
                 Decision::Summary => {}
                 // `Choices::hear` has taken two of them, and `at` the third.
@@ -307,7 +307,8 @@ impl Session {
         let placed = self.placement.stage_from_scene();
         let seen = self.placement.seen();
         let setting = self.pacing.setting(&self.benches.current);
-        let extent = scaled(self.benches.eyes.extent, &setting);
+        let (most, wanted) = (self.benches.eyes.extent, headset.wanted());
+        let extent = scaled([0, 1].map(|side| most[side].min(wanted[side])), &setting);
         let foveating = self.benches.eyes.foveating(setting.foveated);
         let (world, picture) = (&self.run.world, &mut self.benches.current.picture);
         self.gloves = picture.gloves(world, seen.as_ref(), &self.joints);
@@ -317,15 +318,18 @@ impl Session {
         }
         // Neither is of the user's skin.
         let mut drawn = self.gloves.clone();
-        if let Some((side, ray)) = self.panel.ray() {
-            drawn[side as usize].push(ray);
+        let mut tools = vitriol_run::tools(world, self.run.thermometer());
+        if headset.eyes() > 1 {
+            if let Some((side, ray)) = self.panel.ray() {
+                drawn[side as usize].push(ray);
+            }
+            for (bones, handle) in drawn.iter_mut().zip(self.handles.bones(world.scene())) {
+                bones.extend(handle);
+            }
         }
-        for (bones, handle) in drawn.iter_mut().zip(self.handles.bones(world.scene())) {
-            bones.extend(handle);
-        }
+        around::draw(&headset.lines(), &placed, &mut drawn, &mut tools);
 
         let resting = (self.run.marks()).drawn(Carriers::of(world, &self.gloves));
-        let tools = vitriol_run::tools(world, self.run.thermometer());
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
@@ -450,38 +454,6 @@ impl Session {
             .last
             .as_ref()
             .map_or(0, |last| last.info.xr_time)
-    }
-
-    /// The state that panel and window title show.
-    pub(super) fn info(&mut self) -> Info {
-        let ends = self.choices.asks_to_end(Instant::now());
-        let (bench, run) = (&self.benches.current, &self.run);
-        let ends_told = ends && self.guide.tells(run);
-        let happened = (self.summary).shown(&self.texts.summary, run, ends_told);
-        let (scene, texts, recorded) = (run.world.scene(), self.summary.texts(), run.recorded());
-        Info {
-            scene: run.scene().to_owned(),
-            title: texts.scene(run.scene()).to_owned(),
-            flasks: (self.readings).lines(scene, |flask| run.world.is_broken(flask)),
-            acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
-            spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
-            heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
-            device_lost: self.losses.is_said(self.counts.frames),
-            burns: Skin::ALL.map(|skin| self.spills.touched(skin)),
-            slow: self.steps.slow_motion(),
-            recording: recorded.as_ref().map(|_| run.time().seconds() as u64),
-            waits_for_disk: recorded.as_ref().is_some_and(|state| state.refused),
-            unwritten: recorded.map_or(0, |state| state.unwritten),
-            missed: self.counts.skipped,
-            effort: self.pacing.effort(bench),
-            coming: self.benches.coming().map(|it| texts.scene(it).to_owned()),
-            holding: (self.choices.holding(self.shown_at()))
-                .map(|share| RING * (100.0 * share / RING as f32) as u32),
-            ends,
-            happened,
-            lesson: self.guide.shown(run, &self.texts.lesson),
-            told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
-        }
     }
 }
 

@@ -10,7 +10,7 @@ use vitriol_xr::{PoseFrame, Side};
 
 use crate::first_minute::{FirstMinute, FirstMinuteReport, Handled, Lesson};
 use crate::sign::Sign;
-use crate::sign::drawing::Pictogram;
+use crate::sign::drawing::{MovedBy, Pictogram};
 use crate::sign::place::{Stands, spot};
 
 /// Cosine of the tilt from which on a held flask pours, and no sign is shown: 45°. A beaker of 250 mL that is filled to two thirds pours
@@ -22,8 +22,10 @@ pub(super) struct Hints {
     minute: FirstMinute,
     /// What is shown; `None` where no hints are wanted.
     pub sign: Option<Sign>,
-    /// Whether another press lets go of what a controller holds.
+    /// Whether another press lets go of what a controller or a mouse holds.
     toggles: bool,
+    /// Whether a mouse moves the hands.
+    pointer: bool,
     /// Volume of the liquid in each flask at the last observation, mL.
     millilitres: Vec<f64>,
     /// The flask that the sign was at.
@@ -33,16 +35,22 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// The hints of a session; none are shown unless they are `wanted`.
+    /// The hints of a session; none are shown unless they are `wanted`. `pointer` is true where a mouse moves the hands.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn new(wanted: bool, toggles: bool, gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
+    pub fn new(
+        wanted: bool,
+        (toggles, pointer): (bool, bool),
+        gpu: &Gpu,
+        library: &Library,
+    ) -> Result<Self, Failure> {
         let sign = wanted.then(|| Sign::new(gpu, library)).transpose()?;
         Ok(Self {
             minute: FirstMinute::default(),
             sign,
             toggles,
+            pointer,
             millilitres: Vec::new(),
             before: None,
             side: Side::Right,
@@ -120,10 +128,15 @@ impl Hints {
         if let Some(side) = holder.and_then(|side| Side::BOTH.get(side)) {
             self.side = *side;
         }
+        let by = match (self.pointer, bare[self.side as usize]) {
+            (true, _) => MovedBy::Mouse,
+            (false, true) => MovedBy::Fingers,
+            (false, false) => MovedBy::Controller,
+        };
         let pictogram = Pictogram {
             lesson,
             side: self.side,
-            controller: !bare[self.side as usize],
+            by,
             toggles: self.toggles,
             step: 0,
         };

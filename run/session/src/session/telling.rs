@@ -1,12 +1,21 @@
-//! A session and its instructor: her orders are carried out, and the console is sent the session's state.
+//! A session and its instructor: her orders are carried out, and the console is sent the session's state, as panel and window title are.
+
+use std::time::Instant;
 
 use vitriol_console::List;
+use vitriol_run::scenery::has_acid;
 use vitriol_run::{Action, Failure};
+use vitriol_sim::scene::PictureTint;
+use vitriol_sim::solver::Skin;
 use vitriol_xr::{Shown, Side};
 
 use super::Session;
 use super::instructor::Now;
 use crate::decision::Decision;
+use crate::info::{Info, Lying};
+
+/// Steps in which the panel's rings fill, per cent: the panel is drawn anew for each.
+const RING: u32 = 5;
 
 impl Session {
     /// Carries out the instructor's orders; returns whether one ends the session.
@@ -102,6 +111,39 @@ impl Session {
             hints: List::clipped(self.guide.hints()),
             ended,
         });
+    }
+
+    /// The state that panel and window title show.
+    pub(super) fn info(&mut self) -> Info {
+        let ends = self.choices.asks_to_end(Instant::now());
+        let (bench, run) = (&self.benches.current, &self.run);
+        let ends_told = ends && self.guide.tells(run);
+        let happened = (self.summary).shown(&self.texts.summary, run, ends_told);
+        let (scene, texts, recorded) = (run.world.scene(), self.summary.texts(), run.recorded());
+        Info {
+            scene: run.scene().to_owned(),
+            title: texts.scene(run.scene()).to_owned(),
+            flasks: (self.readings).lines(scene, |flask| run.world.is_broken(flask)),
+            acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
+            spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
+            heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
+            device_lost: self.losses.is_said(self.counts.frames),
+            burns: Skin::ALL.map(|skin| self.spills.touched(skin)),
+            slow: self.steps.slow_motion(),
+            recording: recorded.as_ref().map(|_| run.time().seconds() as u64),
+            waits_for_disk: recorded.as_ref().is_some_and(|state| state.refused),
+            unwritten: recorded.map_or(0, |state| state.unwritten),
+            missed: self.counts.skipped,
+            effort: self.pacing.effort(bench),
+            coming: self.benches.coming().map(|it| texts.scene(it).to_owned()),
+            holding: (self.choices.holding(self.shown_at()))
+                .map(|share| RING * (100.0 * share / RING as f32) as u32),
+            ends,
+            pointer: self.pointer,
+            happened,
+            lesson: self.guide.shown(run, &self.texts.lesson),
+            told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
+        }
     }
 
     /// Shows the instructor what the left eye sees.

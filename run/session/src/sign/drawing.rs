@@ -4,12 +4,23 @@ use egui::Shape;
 use glam::{Vec2, vec2};
 use vitriol_xr::Side;
 
-use super::strokes::{Beaker, Canvas, HAND, LIQUID};
+use super::strokes::{Beaker, Canvas, HAND, LIQUID, Part};
 use crate::first_minute::Lesson;
 
 /// Steps of a pictogram's motion, and how many of them a picture stays when the motion is done.
 pub const STEPS: u32 = 24;
 const RESTS: u32 = 8;
+
+/// What moves a hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MovedBy {
+    /// The user's bare hand.
+    Fingers,
+    /// A controller, whose trigger is shown.
+    Controller,
+    /// A mouse, whose button or wheel is shown.
+    Mouse,
+}
 
 /// A picture of the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +29,8 @@ pub struct Pictogram {
     pub lesson: Lesson,
     /// The hand that does it.
     pub side: Side,
-    /// Whether that hand has a controller, whose trigger is shown.
-    pub controller: bool,
+    /// What moves that hand, which is shown beside it.
+    pub by: MovedBy,
     /// Whether another press lets go.
     pub toggles: bool,
     /// Step of the motion.
@@ -40,8 +51,8 @@ impl Pictogram {
         let progress = progress.min(1.0);
         match self.lesson {
             Lesson::Take => self.take(&mut canvas, progress),
-            Lesson::Lift => lift(&mut canvas, progress),
-            Lesson::Pour => pour(&mut canvas, progress),
+            Lesson::Lift => self.lift(&mut canvas, progress),
+            Lesson::Pour => self.pour(&mut canvas, progress),
             Lesson::PutDown => self.put_down(&mut canvas, progress),
         }
         canvas.ring(Vec2::ZERO, 0.955, 0.03, HAND);
@@ -57,11 +68,11 @@ impl Pictogram {
         }
     }
 
-    /// How large beaker and hand are, and where the beaker stands: there is room for the controller over them.
+    /// How large beaker and hand are, and where the beaker stands: there is room for controller or mouse over them.
     fn beaker(&self) -> Beaker {
-        let (x, y, size) = match self.controller {
-            true => (-0.36, -0.56, 0.82),
-            false => (-0.22, -0.40, 1.0),
+        let (x, y, size) = match self.by {
+            MovedBy::Controller | MovedBy::Mouse => (-0.36, -0.56, 0.82),
+            MovedBy::Fingers => (-0.22, -0.40, 1.0),
         };
         let (base, turn) = (vec2(x, y), 0.0);
         Beaker { base, turn, size }
@@ -74,8 +85,35 @@ impl Pictogram {
         let far = 0.30 * (1.0 - eased(progress, [0.0, 0.5]));
         canvas.table([-0.74, 0.30], beaker.base.y);
         holding(canvas, &beaker, far, closed);
-        if self.controller {
-            canvas.controller(CONTROLLER, self.pulled(closed, closed), false);
+        self.press(canvas, self.pulled(closed, closed), false);
+    }
+
+    /// Up from the table: by a mouse's wheel, since its hand carries things just over the table.
+    fn lift(&self, canvas: &mut Canvas, progress: f32) {
+        lift(canvas, progress);
+        if self.by == MovedBy::Mouse {
+            canvas.mouse(vec2(0.50, 0.50), 0.75, Part::Wheel, false);
+        }
+    }
+
+    /// The beaker turns over the other one: by a mouse's right button, which is held while the mouse goes up or down.
+    fn pour(&self, canvas: &mut Canvas, progress: f32) {
+        pour(canvas, progress);
+        if self.by == MovedBy::Mouse {
+            canvas.mouse(vec2(0.25, -0.42), 0.75, Part::Right, true);
+            let middle = vec2(0.56, -0.42);
+            for up in [-1.0_f32, 1.0] {
+                canvas.arrow(middle, middle + up * 0.24 * Vec2::Y);
+            }
+        }
+    }
+
+    /// The trigger that is pulled so far (0 to 1), and is to pull or to let go; or the mouse's button.
+    fn press(&self, canvas: &mut Canvas, pulled: f32, lets_go: bool) {
+        match self.by {
+            MovedBy::Fingers => {}
+            MovedBy::Controller => canvas.controller(CONTROLLER, pulled, lets_go),
+            MovedBy::Mouse => canvas.mouse(MOUSE, 1.0, Part::Left, pulled >= 0.5),
         }
     }
 
@@ -90,15 +128,15 @@ impl Pictogram {
         canvas.arrow(vec2(-0.74, 0.40), vec2(-0.74, -0.22));
         beaker.base += vec2(0.06, 0.36 * up);
         holding(canvas, &beaker, far, 1.0 - opens);
-        if self.controller {
-            let pulled = self.pulled(1.0 - opens, opens);
-            canvas.controller(CONTROLLER, pulled, !self.toggles);
-        }
+        let pulled = self.pulled(1.0 - opens, opens);
+        self.press(canvas, pulled, !self.toggles);
     }
 }
 
 /// Where a controller's trigger is.
 const CONTROLLER: Vec2 = vec2(0.22, 0.58);
+/// Where a mouse is.
+const MOUSE: Vec2 = vec2(0.20, 0.50);
 
 /// A beaker with a hand at its right, so far away and so far closed.
 fn holding(canvas: &mut Canvas, beaker: &Beaker, far: f32, closed: f32) {

@@ -16,7 +16,7 @@ pub(super) const LIQUID: Color32 = Color32::from_rgb(95, 175, 255);
 pub(super) const HAND: Color32 = Color32::from_rgb(250, 245, 235);
 /// What is to be pressed, and where to: the panel's amber.
 pub(super) const AMBER: Color32 = Color32::from_rgb(255, 190, 80);
-/// A controller, and what flasks stand on.
+/// A controller or a mouse, and what flasks stand on.
 pub(super) const THING: Color32 = Color32::from_rgb(165, 175, 185);
 
 /// Half a line's width.
@@ -49,6 +49,14 @@ pub(super) struct Beaker {
     pub base: Vec2,
     pub turn: f32,
     pub size: f32,
+}
+
+/// A part of a mouse that is to be used.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Part {
+    Left,
+    Right,
+    Wheel,
 }
 
 impl Beaker {
@@ -246,6 +254,29 @@ impl Canvas {
             false => self.arrow(ends[0], ends[1]),
         }
     }
+
+    /// A mouse of that size from above, whose `part` is to be used; a button that is `pressed` is lower, with strokes beside it. `at`
+    /// is about its middle. A mirrored picture has its buttons where they are.
+    pub fn mouse(&mut self, at: Vec2, size: f32, part: Part, pressed: bool) {
+        let across = if self.mirrored { -1.0 } else { 1.0 };
+        let to = |x: f32, y: f32| at + size * vec2(across * x, y);
+        self.edged([to(0.0, -0.20), to(0.0, 0.06)], 0.19 * size, THING);
+        for (button, side) in [(Part::Left, -1.0_f32), (Part::Right, 1.0)] {
+            let is_used = button == part;
+            let goes = if is_used && pressed { 0.04 } else { 0.0 };
+            let ends = [0.01, 0.12].map(|y| to(0.085 * side, y - goes));
+            let colour = if is_used { AMBER } else { HAND };
+            self.line(ends, 0.062 * size, colour);
+            if is_used && pressed {
+                for ends in [[(0.19, 0.21), (0.25, 0.28)], [(0.23, 0.10), (0.33, 0.12)]] {
+                    let ends = ends.map(|(x, y): (f32, f32)| to(side * x, y));
+                    self.line(ends, 0.022 * size, AMBER);
+                }
+            }
+        }
+        let colour = if part == Part::Wheel { AMBER } else { ground() };
+        self.line([to(0.0, 0.03), to(0.0, 0.13)], 0.03 * size, colour);
+    }
 }
 
 #[cfg(test)]
@@ -274,6 +305,22 @@ mod tests {
             let whole = 2.0 * HALF * HEIGHT * 0.64;
             assert!((area(&liquid) / whole - 0.3).abs() < 1e-3);
             assert!(liquid.iter().all(|corner| corner.y <= surface + 1e-6));
+        }
+    }
+
+    /// The left button is at the left in a picture for the left hand, too.
+    #[test]
+    fn a_mouse_is_not_mirrored() {
+        for mirrored in [false, true] {
+            let mut canvas = Canvas::new(100.0, mirrored);
+            canvas.mouse(Vec2::ZERO, 1.0, Part::Left, false);
+            let amber = canvas.shapes().into_iter().filter_map(|shape| match shape {
+                Shape::Circle(end) if end.fill == AMBER => Some(end.center.x),
+                _ => None,
+            });
+            let places: Vec<f32> = amber.collect();
+            let at_the_left = places.iter().all(|x| *x < 100.0);
+            assert!(!places.is_empty() && at_the_left, "{mirrored}: {places:?}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! The report of `vitriol vr` on a session at its end, as a document and in words.
+//! The report on a session at its end, as a document and in words.
 
 use std::fmt::Write;
 
@@ -20,10 +20,10 @@ use vitriol_session::session::{
 use vitriol_session::stand_in::{Ready, StandInSpec};
 use vitriol_session::tally::{FramesReport, Holdings, WaitsReport};
 
-/// What `vitriol vr` prints at the session's end.
+/// What `vitriol vr` and `vitriol desk` print at the session's end.
 #[derive(Debug, Serialize)]
-pub(super) struct SessionReport {
-    /// The headset, or what stood in for it.
+pub struct SessionReport {
+    /// The headset, or what was in its place.
     headset: String,
     device: DeviceStatement,
     scene: String,
@@ -89,16 +89,16 @@ pub(super) struct SessionReport {
     /// Flasks that broke.
     flasks_broken: u32,
     /// What was done and what went wrong, from each start of a scene on.
-    pub(super) attempts: Vec<Attempt>,
+    pub attempts: Vec<Attempt>,
     /// What the lesson came to.
     #[serde(skip_serializing_if = "Option::is_none")]
     lesson: Option<Verdict>,
     /// What was kept under a pseudonym.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) kept: Option<Kept>,
+    pub kept: Option<Kept>,
     /// What pages saw that looked meanwhile.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) watched: Option<WatchReport>,
+    pub watched: Option<WatchReport>,
     /// Which of the signs' four steps were done, and when.
     #[serde(skip_serializing_if = "Option::is_none")]
     first_minute: Option<FirstMinuteReport>,
@@ -111,7 +111,10 @@ pub(super) struct SessionReport {
 }
 
 /// The report of a session; `stand_in` is what timed its frames, if not a headset.
-pub(super) fn report(
+///
+/// # Errors
+/// An error of the device.
+pub fn report(
     headset: String,
     outcome: &SessionOutcome,
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
@@ -217,7 +220,7 @@ fn waited(waits: &WaitsReport) -> String {
 }
 
 /// It in words, as the terminal shows it.
-pub(super) fn describe(session: &SessionReport) -> String {
+pub fn describe(session: &SessionReport) -> String {
     let mut text = format!(
         "{}\n{}, {}; {}, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
          {}, {} missed\n",

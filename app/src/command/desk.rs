@@ -1,0 +1,58 @@
+//! `vitriol desk`: in a window, with mouse and keyboard.
+
+use std::sync::mpsc::channel;
+
+use vitriol_gpu::{Gpu, PlainLoader};
+use vitriol_run::{Failure, Format, device};
+use vitriol_xr::Headset;
+
+use crate::cli::DeskArgs;
+use crate::command::session::{self, Prepared, report};
+use vitriol_session::desk::{self, DeskSpec};
+use vitriol_session::foveating::Foveating;
+use vitriol_session::latch::Grip;
+use vitriol_session::menu;
+use vitriol_session::placement::Posture;
+use vitriol_session::session::{Options, Session};
+
+/// Runs `vitriol desk`.
+///
+/// # Errors
+/// [`Failure::NoDevice`] without a device; [`Failure::Input`] for a scene that is not there or a recording that is;
+/// [`Failure::Other`], also without a screen.
+pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
+    let shared = &args.session;
+    let options = Options {
+        // The bench stays where the first view has it, however high the view goes.
+        posture: Posture::Seated,
+        // A screen has no lenses, away from whose axes fewer pixels would do.
+        foveating: Some(Foveating::Off),
+        pointer: true,
+        ..session::options(shared)?
+    };
+    let gpu = device::timed(args.device.as_deref(), session::timestamps(&options))?;
+    if format == Format::Text {
+        let info = gpu.info();
+        let text = session::starting("the session", &info.name, info.kind);
+        eprintln!("{text}");
+    }
+    // Before the console's address is printed: without a screen there is nothing to direct.
+    let (decisions, taken) = channel();
+    let spec = DeskSpec {
+        size: args.size,
+        full_screen: args.full_screen,
+        toggles: shared.grip == Grip::Toggle,
+    };
+    let (desk, window) = desk::open(&gpu, spec, decisions.clone())?;
+    let opened = gpu.options().clone();
+    let mut desk = desk.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
+    let prepared = Prepared::new(shared, format, options)?;
+    if format == Format::Text {
+        eprintln!("{}", menu::mouse_lines());
+    }
+    let options = prepared.solved(&gpu)?;
+    prepared.take_keys(decisions)?;
+    let session = Session::new(&desk, options, taken)?.mirrored(window)?;
+    let outcome = session.run(&mut desk)?;
+    prepared.end(report::report(desk.name().to_owned(), &outcome, None)?)
+}

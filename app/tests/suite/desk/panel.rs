@@ -1,0 +1,155 @@
+//! The panel: it fills the picture at a key, and its buttons are pressed with the mouse.
+
+use crate::desk::common::{By, Script, User, at_screen, session};
+use crate::desk::seen::Seen;
+use crate::vr::panel::place_at_desk;
+use glam::Vec3;
+use vitriol_run::Action;
+use vitriol_run::track::key;
+use vitriol_session::decision::Decision;
+use vitriol_session::panel::PANEL;
+use vitriol_tests::gpu;
+use vitriol_tests::screen::{self, Button};
+use vitriol_xr::Side;
+
+/// R lets the panel fill the picture.
+const FILLS: u32 = 'r' as u32;
+
+/// Where a place of the panel is in the stage: shares of its width and height from its upper left.
+fn on_panel(seen: &Seen<'_>, [x, y]: [f32; 2]) -> Vec3 {
+    let (pose, [width, height]) = &seen.around.panel;
+    pose.transform_point(Vec3::new((x - 0.5) * width, (0.5 - y) * height, 0.0))
+}
+
+/// The same of a place in pixels of the panel.
+fn button(seen: &Seen<'_>, [x, y]: [f32; 2]) -> Vec3 {
+    on_panel(seen, [x / PANEL[0] as f32, y / PANEL[1] as f32])
+}
+
+/// Whether a hand aims at that point, to half a button's height (23 of 864 pixels of 0.6 m).
+fn is_aimed_at(seen: &Seen<'_>, point: Vec3) -> bool {
+    Side::BOTH.into_iter().any(|side| {
+        let aim = seen.frame.hand(side).stage_from_aim;
+        let (way, to) = (aim.orientation * Vec3::NEG_Z, point - aim.position);
+        way.dot(to) > 0.0 && (to - way * way.dot(to)).length() < 0.016
+    })
+}
+
+/// Whether a hand pulls its trigger.
+fn pulls(seen: &Seen<'_>) -> bool {
+    (seen.frame.hands.iter()).any(|hand| hand.trigger > 0.6)
+}
+
+/// Whether the panel is as large as the picture, and the view at rest.
+fn looks(user: &mut User, seen: &Seen<'_>) -> bool {
+    let ends = [[0.0, 0.0], [1.0, 1.0]].map(|end| seen.place(on_panel(seen, end)));
+    let was = user.noted;
+    user.noted = ends.map(|[x, y]| Vec3::new(x, y, 0.0));
+    let rests = (was.iter().zip(&user.noted)).all(|(was, is)| was.distance(*is) < 1e-3);
+    let inside = ends
+        .as_flattened()
+        .iter()
+        .all(|it| (0.0..=1.0).contains(it));
+    rests && inside && ends[1][1] - ends[0][1] > 0.8
+}
+
+/// The window's picture where the panel's buttons are.
+fn buttons(user: &User, seen: &Seen<'_>) -> Vec<[u8; 3]> {
+    let ([width, height], pixels) = user.screen.picture(user.window);
+    let corner = |at| {
+        let [x, y] = seen.place(on_panel(seen, at));
+        [x * width as f32, y * height as f32].map(|it| it as usize)
+    };
+    let ([left, upper], [right, lower]) = (corner([0.55, 0.1]), corner([0.95, 0.7]));
+    let rows = pixels.chunks_exact(width as usize).take(lower).skip(upper);
+    rows.flat_map(|row| row[left..right].to_vec()).collect()
+}
+
+/// Share of pixels that are not what they were.
+fn changed(was: &[[u8; 3]], is: &[[u8; 3]]) -> f32 {
+    // More than what an edge loses to another rounding of its place.
+    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|it| a[it].abs_diff(b[it]) > 12);
+    let count = was.iter().zip(is).filter(|pair| differs(*pair)).count();
+    count as f32 / was.len().max(1) as f32
+}
+
+#[test]
+fn buttons_of_the_panel_are_pressed_with_the_mouse() {
+    let name = "desk::panel::buttons_of_the_panel_are_pressed_with_the_mouse";
+    let Some(screen) = screen::enter(name) else {
+        return;
+    };
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let start = place_at_desk(&gpu, &Decision::Act(Action::Start(None)));
+    let summary = place_at_desk(&gpu, &Decision::Summary);
+    let mut before = Vec::new();
+    let script = Script::default()
+        .then("looks at the panel", |user, seen, frame| {
+            if frame == 0 {
+                user.tap(FILLS);
+            }
+            looks(user, seen)
+        })
+        .then(
+            "points at the button of a new start",
+            move |user, seen, frame| {
+                if frame == 0 {
+                    user.point_at(seen, button(seen, start));
+                }
+                is_aimed_at(seen, button(seen, start)) && !pulls(seen)
+            },
+        )
+        // The scene begins anew only after a second; the window's title then says so.
+        .then("holds it", |user, seen, frame| {
+            if frame == 0 {
+                user.button(Button::Main, true);
+            }
+            let title = user.screen.title(user.window);
+            let begins = title.is_some_and(|it| it.contains("setting up"));
+            if begins {
+                assert!(pulls(seen));
+                user.button(Button::Main, false);
+            }
+            begins
+        })
+        .then("waits for the bench", |user, seen, _| {
+            let title = user.screen.title(user.window);
+            !pulls(seen) && title.is_some_and(|it| !it.contains("setting up"))
+        })
+        // What fades in is dark at first.
+        .then("waits for its light", |_, seen, frame| {
+            frame >= 20 && seen.lasts > 0.5
+        })
+        .then("points at what happened", move |user, seen, frame| {
+            if frame == 0 {
+                user.point_at(seen, button(seen, summary));
+            }
+            is_aimed_at(seen, button(seen, summary)) && !pulls(seen) && frame >= 5
+        })
+        // The list of scenes gives way to the summary.
+        .then("clicks", move |user, seen, frame| {
+            let now = buttons(user, seen);
+            if frame == 0 {
+                before = now;
+                user.button(Button::Main, true);
+                user.button(Button::Main, false);
+                return false;
+            }
+            // A button that lights up under the pointer is some 5 % of that.
+            changed(&before, &now) > 0.15
+        });
+    let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
+    assert_eq!(sat.ended_in, None);
+    let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
+    let starts = switches.filter(|switch| switch.key == key::START);
+    assert_eq!(starts.count(), 1);
+    assert_eq!(sat.outcome.attempts.len(), 2);
+    // A press on the panel grips nothing.
+    assert!(
+        sat.outcome
+            .attempts
+            .iter()
+            .all(|it| it.incidents.is_empty())
+    );
+}

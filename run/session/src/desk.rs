@@ -1,0 +1,296 @@
+//! A desk in place of a headset: a window, whose picture is seen from an eye that goes round the bench, and hands that follow mouse and
+//! keyboard.
+
+mod clock;
+mod hands;
+pub(crate) mod input;
+mod view;
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+
+use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
+use vitriol_run::Failure;
+use vitriol_xr::{
+    Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Inset, Line, Pose, PoseFrame,
+    SessionState, Shown, Side, Targets, Turn, View,
+};
+
+use self::clock::{Clock, rate};
+use self::hands::Hands;
+use self::input::{Input, Inputs};
+use self::view::Viewpoint;
+use crate::decision::Decision;
+use crate::mirror::{Display, Extent, Opening, Window};
+use crate::placement::SCENE_TABLE;
+use crate::stand_in::EPOCH;
+
+/// How a desk's window opens, and what a click does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeskSpec {
+    /// Width and height of the window as it opens, pixels.
+    pub size: [u32; 2],
+    /// Whether it fills the screen.
+    pub full_screen: bool,
+    /// Whether one click takes and the next puts down; else a hand holds while the button is down.
+    pub toggles: bool,
+}
+
+/// A window with mouse and keyboard as a headset with hands.
+pub struct Desk {
+    gpu: Gpu,
+    targets: Targets,
+    /// Width and height of the largest picture, pixels: those of the screen.
+    largest: [u32; 2],
+    /// Width and height of this frame's picture, pixels.
+    wanted: [u32; 2],
+    window: Arc<Extent>,
+    events: Receiver<Input>,
+    inputs: Inputs,
+    view: Viewpoint,
+    hands: Hands,
+    around: Around,
+    clock: Clock,
+    index: u64,
+    leaving: bool,
+    name: String,
+    /// Opens another device where the present one is lost.
+    reopens: Option<Reopens>,
+    /// Whether it is.
+    lost: bool,
+}
+
+/// What to do where there is no screen.
+const REMEDY: &str = "a desk needs a screen; start it from a graphical login, or simulate recorded hands \
+                      without one by `vitriol replay`";
+
+/// Opens a device.
+type Reopens = Box<dyn FnMut() -> Result<Gpu, GpuError>>;
+
+/// Opens a window and waits for it; its keys decide as the mirror's do. The window is for
+/// [`Session::mirrored`](crate::session::Session::mirrored).
+///
+/// # Errors
+/// [`Failure::NoDevice`] where there is no screen for a window; an error of the device.
+pub fn open(
+    gpu: &Gpu,
+    spec: DeskSpec,
+    decisions: Sender<Decision>,
+) -> Result<(Desk, Window), Failure> {
+    let (input, events) = channel();
+    let opening = Opening {
+        size: spec.size,
+        full_screen: spec.full_screen,
+        input,
+    };
+    let (window, display) = Window::of_desk(opening, decisions).map_err(|failure| {
+        Failure::NoDevice(format!("no window can be opened ({failure}): {REMEDY}").into())
+    })?;
+    let targets = targets(gpu).map_err(|error| Failure::Other(error.into()))?;
+    let desk = Desk::new(gpu, (spec, display), (&window, events), targets);
+    Ok((desk, window))
+}
+
+/// The session copies its picture for headsets. The window takes it from where it was drawn, so a pixel is enough, and the panel is in it.
+fn targets(gpu: &Gpu) -> Result<Targets, GpuError> {
+    let desc = ImageDesc {
+        extent: [1, 1],
+        layers: 1,
+        format: vk::Format::R8G8B8A8_SRGB,
+        usage: vk::ImageUsageFlags::SAMPLED,
+    };
+    Ok(Targets {
+        colour: Image::new(gpu, "desk's colour", desc)?,
+        depth: None,
+        inset: None,
+        panel: None,
+    })
+}
+
+impl Desk {
+    fn new(
+        gpu: &Gpu,
+        (spec, display): (DeskSpec, Display),
+        (window, events): (&Window, Receiver<Input>),
+        targets: Targets,
+    ) -> Self {
+        let screen = display.size.unwrap_or(spec.size);
+        let largest = [0, 1].map(|side| screen[side].max(spec.size[side]).max(1));
+        let (rate, view) = (rate(display.rate_mhz), Viewpoint::default());
+        Self {
+            targets,
+            largest,
+            wanted: spec.size,
+            window: window.shared_extent(),
+            events,
+            inputs: Inputs::default(),
+            hands: Hands::new(&view.pose(), SCENE_TABLE).with_toggles(spec.toggles),
+            view,
+            around: Around {
+                table: SCENE_TABLE,
+                ..Around::default()
+            },
+            clock: Clock::new(rate),
+            index: 0,
+            leaving: false,
+            name: format!("a window at {rate:.0} Hz on {}", gpu.info().name),
+            gpu: gpu.clone(),
+            reopens: None,
+            lost: false,
+        }
+    }
+
+    /// This desk, which goes on with the device that `reopens` opens where its own is lost.
+    pub fn reopening(mut self, reopens: impl FnMut() -> Result<Gpu, GpuError> + 'static) -> Self {
+        self.reopens = Some(Box::new(reopens));
+        self
+    }
+
+    /// Takes the events of mouse and keyboard; `false` once the window is closed.
+    fn take_events(&mut self) -> bool {
+        loop {
+            match self.events.try_recv() {
+                Ok(input) => self.inputs.take(input),
+                Err(TryRecvError::Empty) => return true,
+                Err(TryRecvError::Disconnected) => return false,
+            }
+        }
+    }
+
+    /// Head and hands in a frame that is shown at `time` (ns), `passed` seconds after the last one.
+    fn poses(&mut self, time: i64, passed: f32) -> PoseFrame {
+        let [width, height] = self.wanted.map(|side| side as f32);
+        let turns = self.inputs.turns(passed);
+        let panel = self.around.panel;
+        self.view.advance(&turns, panel, width / height, passed);
+        let holds = self.around.holds[self.hands.active() as usize].is_some();
+        let controls = self.inputs.controls(&self.view, holds);
+        let hands: [Hand; 2] = self.hands.advance(&controls, &self.around, passed);
+        PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: self.view.pose(),
+            hands,
+            scenario: Vec::new(),
+            info: FrameInfo {
+                xr_time: EPOCH + time,
+                period_ns: self.clock.period_ns(),
+                fov: [self.view.fov(); 2],
+                session_state: SessionState::Focused,
+            },
+        }
+    }
+}
+
+impl Headset for Desk {
+    fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    fn eyes(&self) -> u32 {
+        1
+    }
+
+    fn extent(&self) -> [u32; 2] {
+        self.largest
+    }
+
+    fn wanted(&self) -> [u32; 2] {
+        self.wanted
+    }
+
+    fn inset(&self) -> Option<Inset> {
+        None
+    }
+
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
+        [Vec::new(), Vec::new()]
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn next(&mut self) -> Result<Turn, HeadsetError> {
+        if self.leaving {
+            return Ok(Turn::Ended);
+        }
+        if std::mem::take(&mut self.lost) {
+            let reopens = self.reopens.as_mut();
+            let lost = GpuError::DeviceLost { last_pass: None };
+            let gpu = reopens.ok_or(lost).and_then(|reopens| reopens())?;
+            self.targets = targets(&gpu)?;
+            self.gpu = gpu;
+            return Ok(Turn::Renewed);
+        }
+        let (time, passed) = self.clock.wait();
+        if !self.take_events() {
+            self.leaving = true;
+            return Ok(Turn::Ended);
+        }
+        // A window that is minimised shows nothing, and time goes on in it.
+        let window = self.window.get();
+        if let Some(size) = window {
+            self.wanted = [0, 1].map(|side| size[side].min(self.largest[side]));
+        }
+        let frame = HeadsetFrame {
+            index: self.index,
+            poses: self.poses(time, passed),
+            should_render: window.is_some(),
+            recentred: false,
+            lost: false,
+            joints: [None, None],
+        };
+        self.index += 1;
+        Ok(Turn::Frame(Box::new(frame)))
+    }
+
+    fn acquire(&mut self, _panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        Ok(Some(self.targets.clone()))
+    }
+
+    fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
+        let view = View {
+            stage_from_eye: self.view.pose(),
+            fov: self.view.fov(),
+        };
+        Ok([view; 2])
+    }
+
+    fn gaze(&self) -> Option<Pose> {
+        None
+    }
+
+    fn around(&mut self, around: Around) {
+        self.around = around;
+    }
+
+    fn lines(&self) -> Vec<Line> {
+        self.hands.lines()
+    }
+
+    fn end(&mut self, _shown: Option<&Shown>) -> Result<(), HeadsetError> {
+        Ok(())
+    }
+
+    fn vibrate(&mut self, _side: Side, _amplitude: f32) -> Result<(), HeadsetError> {
+        Ok(())
+    }
+
+    fn lose_device(&mut self) {
+        self.lost = true;
+    }
+
+    fn rates(&self) -> &[f32] {
+        &[]
+    }
+
+    fn request_rate(&mut self, _rate: f32) -> Result<(), HeadsetError> {
+        Ok(())
+    }
+
+    fn request_exit(&mut self) -> Result<(), HeadsetError> {
+        self.leaving = true;
+        Ok(())
+    }
+}

@@ -1,0 +1,368 @@
+//! The hands of a pointer: a mouse and a keyboard move two hands over the bench as a careful person would.
+//!
+//! The poses are those of a headset's hands, so what they do is simulated, recorded, judged and replayed like anything else. Pure: no
+//! device is used here.
+
+mod controls;
+mod hand;
+mod held;
+mod lines;
+mod motion;
+mod obstacles;
+mod pointing;
+mod press;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use glam::{Quat, Vec3};
+use vitriol_xr::{Around, Hand, Line, Pose, Side};
+
+pub use controls::Controls;
+use hand::{Mover, State, Taking};
+use held::Drag;
+use obstacles::{hover, level};
+use pointing::{Ray, by_place, by_ray, grip_at, nearest, orientation, outwards};
+use press::Press;
+
+/// Interaction profile of these hands in a recording. It is ours: OpenXR has none for a mouse.
+const PROFILE: &str = "/interaction_profiles/vitriol/mouse";
+/// Longest time that one frame moves a hand, s: where frames take longer, hands are slower and as steady.
+const LONGEST: f32 = 0.1;
+/// Longest step of the motion, s: as that of the simulation.
+const STEP: f32 = 1.0 / 90.0;
+/// Where hands rest from between the eyes, m: to their side, down and ahead; over the bench, and clear of all glass.
+const REST: [f32; 3] = [0.22, 0.25, 0.18];
+/// Least height of a hand over the bench at rest, and over what it hovers, m.
+const REST_OVER: f32 = 0.2;
+const REST_CLEAR: f32 = 0.1;
+const HOVERS: f32 = 0.06;
+/// How far from the user the pointer's place on the bench is at most, m.
+const REACH: f32 = 0.85;
+/// Speed of keys over the bench, m/s, and the share of it that is slow.
+const KEYS: f32 = 0.25;
+const SLOW: f32 = 0.25;
+
+/// Two hands that a pointer moves, one at a time.
+pub struct Hands {
+    movers: [Mover; 2],
+    active: Side,
+    /// A click takes, and another one puts down.
+    toggles: bool,
+    /// The eyes, and right and ahead, as the session began.
+    head: Vec3,
+    ahead: [Vec3; 2],
+    /// The last frame's controls.
+    controls: Controls,
+    /// The place on the bench that is pointed at, and the thing that a press would take.
+    spot: Vec3,
+    picked: Option<usize>,
+    press: Option<Press>,
+    /// Whether the pointer was used last, and not keys.
+    points: bool,
+    /// Whether the pointer is on the panel.
+    on_panel: bool,
+    lines: Vec<Line>,
+    profile: Arc<str>,
+}
+
+impl Hands {
+    /// Hands at rest over a bench whose top is `table` metres high, before eyes at `head` (stage_from_view).
+    pub fn new(head: &Pose, table: f32) -> Self {
+        let head = if head.is_valid() {
+            *head
+        } else {
+            Pose::IDENTITY
+        };
+        let level_of = |along: Vec3| (head.orientation * along).with_y(0.0).try_normalize();
+        let away = level_of(Vec3::NEG_Z).unwrap_or(Vec3::NEG_Z);
+        let right = away.cross(Vec3::Y);
+        let eyes = head.position;
+        let ahead = [right, away];
+        let rest = |side| {
+            let orientation = orientation(side, Vec3::Y, outwards(side, right));
+            Mover::new(side, Pose::new(rest(side, eyes, ahead, table), orientation))
+        };
+        Self {
+            movers: Side::BOTH.map(rest),
+            active: Side::Right,
+            toggles: false,
+            head: eyes,
+            ahead,
+            controls: Controls {
+                ray: (eyes, away),
+                right,
+                away,
+                ..Controls::default()
+            },
+            spot: (eyes + 0.4 * away).with_y(table),
+            picked: None,
+            press: None,
+            points: false,
+            on_panel: false,
+            lines: Vec::new(),
+            profile: PROFILE.into(),
+        }
+    }
+
+    /// These hands, of which a click takes hold and another one puts down, if it `toggles`; else a thing is held as long as the button.
+    pub fn with_toggles(mut self, toggles: bool) -> Self {
+        self.toggles = toggles;
+        self
+    }
+
+    /// The hand that pointer and keys move.
+    pub fn active(&self) -> Side {
+        self.active
+    }
+
+    /// Lines to be drawn with the last frame: what a press would take, where a pour would fall, what is under a hand.
+    pub fn lines(&self) -> Vec<Line> {
+        self.lines.clone()
+    }
+
+    /// Advances by `dt` seconds and returns both hands for the frame.
+    pub fn advance(&mut self, controls: &Controls, around: &Around, dt: f32) -> [Hand; 2] {
+        let controls = controls.sound(&self.controls);
+        self.controls = controls.clone();
+        let dt = if dt.is_finite() {
+            dt.clamp(0.0, LONGEST)
+        } else {
+            0.0
+        };
+        if controls.other {
+            self.movers[self.active as usize].leave();
+            self.active = match self.active {
+                Side::Left => Side::Right,
+                Side::Right => Side::Left,
+            };
+            self.picked = None;
+        }
+        let (eye, user) = (controls.ray.0, level(self.head));
+        for mover in &mut self.movers {
+            mover.hear(around, eye, &controls, user);
+        }
+        self.point(&controls, around, dt);
+        self.click(&controls, around, dt);
+        self.decide(&controls, around);
+        let steps = (dt / STEP).ceil().max(1.0);
+        let view = [controls.right, controls.away];
+        for _ in 0..steps as usize {
+            let h = dt / steps;
+            let active = self.movers.get_mut(self.active as usize);
+            if let Some(State::Holding(held)) = active.map(|it| &mut it.state) {
+                held.control(&controls, user, h);
+            }
+            for mover in &mut self.movers {
+                mover.step(around, view, self.spot, h);
+            }
+        }
+        self.draw(around);
+        self.frame()
+    }
+
+    /// The hand that can press something on the panel: one that holds nothing, the active one if it can be chosen.
+    fn presser(&self) -> Option<Side> {
+        let other = self.movers.iter().map(|it| it.side);
+        let mut sides = [self.active].into_iter().chain(other);
+        sides.find(|&side| self.movers[side as usize].is_free())
+    }
+
+    /// Where the pointer is: on the panel, at a thing, on the bench; and where a hand that holds nothing goes.
+    fn point(&mut self, controls: &Controls, around: &Around, dt: f32) {
+        let walks = controls.walk != [0.0; 2];
+        let user = level(self.head);
+        if controls.pointed || controls.press || controls.panel_press {
+            self.points = true;
+        } else if walks {
+            self.points = false;
+        }
+        let by_ray = by_ray(controls.ray, around);
+        let drags = match &self.movers[self.active as usize].state {
+            State::Holding(held) => held.dragged,
+            State::Reaching(_) | State::Closing { .. } => true,
+            State::Free | State::Opening(_) => false,
+        };
+        // What is before the panel, and met by the ray, hides it.
+        let panel = pointing::panel(controls.ray, around).filter(|_| !drags);
+        let hidden = |far: f32| by_ray.is_some_and(|it| it.beside == 0.0 && it.along < far);
+        self.on_panel = self.points && panel.is_some_and(|far| !hidden(far));
+        self.steer(controls);
+        if !self.movers[self.active as usize].is_free() {
+            return;
+        }
+        if controls.pointed {
+            if let Some(at) = pointing::at_height(controls.ray, around.table) {
+                let at = user + (at - user).clamp_length_max(REACH);
+                self.spot = Vec3::new(at.x, around.table, at.y);
+            }
+            self.picked = by_ray.map(|it| it.thing);
+        } else if walks {
+            let speed = if controls.slow { SLOW * KEYS } else { KEYS };
+            let walk = controls.walk[0] * controls.right + controls.walk[1] * controls.away;
+            let at = level(self.spot + speed * dt * walk) - user;
+            let at = user + at.clamp_length_max(REACH);
+            self.spot = Vec3::new(at.x, around.table, at.y);
+            self.picked = by_place(at, around);
+        }
+        if self.on_panel {
+            self.picked = None;
+        } else if (controls.pointed || walks) && self.press.is_none() {
+            self.movers[self.active as usize].target = self.hovering(around);
+        }
+    }
+
+    /// The pointer moves what the active hand holds, or what it is about to take.
+    fn steer(&mut self, controls: &Controls) {
+        let user = level(self.head);
+        match &mut self.movers[self.active as usize].state {
+            State::Reaching(taking) | State::Closing { taking, .. } if controls.pointed => {
+                taking.to = Some(controls.ray);
+            }
+            State::Holding(held) => {
+                let on_panel = self.on_panel && !held.dragged;
+                if controls.pointed && (held.dragged || held.follows) && !on_panel {
+                    held.point(controls.ray, controls.away, user);
+                }
+                if !held.is_put_down() {
+                    held.nudge(controls.wheel, controls.tilt_drag);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Where the active hand hovers.
+    fn hovering(&self, around: &Around) -> Pose {
+        let side = self.active;
+        let view = [self.controls.right, self.controls.away];
+        let at_thing = self
+            .picked
+            .and_then(|it| grip_at(side, around, it, view, self.spot));
+        at_thing.unwrap_or_else(|| {
+            let height = hover(around, level(self.spot), HOVERS, 0.5 * HOVERS);
+            let upright = orientation(side, Vec3::Y, outwards(side, self.controls.right));
+            Pose::new(self.spot.with_y(height), upright)
+        })
+    }
+
+    /// A click on the panel: the hand that presses goes out of the way of all glass first, since its trigger closes it.
+    fn click(&mut self, controls: &Controls, around: &Around, dt: f32) {
+        let free = |hands: &Self, side: Side| hands.movers[side as usize].is_free();
+        if let Some(press) = self.press.take().filter(|it| free(self, it.side)) {
+            let palm = self.movers[press.side as usize].pose().position;
+            let clear = nearest(around, palm, None) > press::CLEAR;
+            self.press = press.after(clear, controls.pressed && !controls.release, dt);
+        }
+        let clicked = controls.press || controls.panel_press;
+        let presser = self.presser();
+        if let (true, true, None, Some(side)) = (self.on_panel, clicked, &self.press, presser) {
+            self.press = Some(Press::new(controls.ray, side));
+        }
+        let pressing = self.press.map(|it| it.side);
+        if let Some(side) = pressing.or(presser.filter(|_| self.on_panel)) {
+            let rest = rest(side, self.head, self.ahead, around.table);
+            let over = hover(around, level(rest), REST_CLEAR, REST_CLEAR);
+            let mover = &mut self.movers[side as usize];
+            mover.target.position = rest.with_y(rest.y.max(over));
+        }
+    }
+
+    /// Taking hold and putting down.
+    fn decide(&mut self, controls: &Controls, around: &Around) {
+        let press = controls.press && !self.on_panel;
+        let let_go = controls.release || !controls.pressed;
+        let eye = controls.ray.0;
+        let picked = self.picked.filter(|_| self.press.is_none());
+        let toggles = self.toggles;
+        let stays = controls.grip || toggles;
+        let drag = picked.and_then(|thing| self.drag(around, thing));
+        let mover = &mut self.movers[self.active as usize];
+        match &mut mover.state {
+            State::Free | State::Opening(_) => {
+                let begins = controls.grip || (press && (toggles || !let_go));
+                if let (true, Some(thing), Some(drag)) = (begins, picked, drag) {
+                    mover.take(Taking {
+                        thing,
+                        drag,
+                        to: None,
+                        stays,
+                        drops: false,
+                    });
+                }
+            }
+            State::Reaching(taking) => {
+                let ends = controls.grip || (toggles && press) || (!taking.stays && let_go);
+                if ends {
+                    mover.state = State::Free;
+                }
+            }
+            State::Closing { taking, .. } => taking.drops |= !taking.stays && let_go,
+            State::Holding(held) => {
+                let asked = controls.grip || (toggles && press);
+                if asked && held.is_put_down() {
+                    held.engage(controls.ray);
+                    held.follows = true;
+                } else if asked || (held.dragged && let_go) {
+                    mover.put_down(around, eye);
+                } else if press {
+                    held.engage(controls.ray);
+                    held.dragged = true;
+                }
+            }
+        }
+    }
+
+    /// How the pointer will drag a thing that it takes now.
+    fn drag(&self, around: &Around, index: usize) -> Option<Drag> {
+        let thing = around.things.get(index)?;
+        let view = [self.controls.right, self.controls.away];
+        let grip = grip_at(self.active, around, index, view, self.spot)?;
+        let held = thing.pose.inverse().transform_point(grip.position).y;
+        let held = held.clamp(0.0, thing.height.max(0.0));
+        let at = thing.pose.transform_point(held * Vec3::Y);
+        Some(Drag::from(at, self.controls.ray))
+    }
+
+    fn draw(&mut self, around: &Around) {
+        let mut drawn = Vec::new();
+        for mover in &self.movers {
+            if let State::Holding(held) = &mover.state {
+                lines::held(around, held.thing, &held.pose(), &mut drawn);
+            }
+        }
+        let is_free = self.movers[self.active as usize].is_free();
+        let picked = self.picked.and_then(|it| around.things.get(it));
+        match picked {
+            Some(thing) if is_free && !self.on_panel => lines::mark(thing, &mut drawn),
+            None if is_free && !self.on_panel => lines::cross(self.spot, &mut drawn),
+            _ => {}
+        }
+        self.lines = drawn;
+    }
+
+    fn frame(&self) -> [Hand; 2] {
+        let ray: Ray = self.press.map_or(self.controls.ray, |it| it.ray);
+        let turned = Quat::from_rotation_arc(Vec3::NEG_Z, ray.1);
+        self.movers.each_ref().map(|mover| Hand {
+            active: true,
+            valid: true,
+            tracked: true,
+            stage_from_grip: mover.pose(),
+            // Before the eye, so that the panel's ray does not begin in it.
+            stage_from_aim: Pose::new(ray.0 + 0.25 * ray.1, turned),
+            squeeze: f32::from(u8::from(mover.is_closed())),
+            trigger: self.press.map_or(0.0, |it| it.trigger(mover.side)),
+            profile: Arc::clone(&self.profile),
+            ..Hand::default()
+        })
+    }
+}
+
+/// Where a hand rests.
+fn rest(side: Side, eyes: Vec3, [right, away]: [Vec3; 2], table: f32) -> Vec3 {
+    let [aside, down, ahead] = REST;
+    let at = eyes + aside * outwards(side, right) + ahead * away;
+    at.with_y((eyes.y - down).max(table + REST_OVER))
+}

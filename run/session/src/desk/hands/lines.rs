@@ -1,0 +1,114 @@
+//! Lines that help a pointer: what a press would take, where a pour would fall, and what is under a hand.
+
+use std::f32::consts::TAU;
+
+use glam::{Vec2, Vec3};
+use vitriol_xr::{Around, Line, Pose, Thing};
+
+use super::obstacles::{axis, counts, level, slides};
+
+/// Radius of the lines, m.
+const THICK: f32 = 0.0012;
+const THIN: f32 = 0.0008;
+/// Straight parts of a ring.
+const PARTS: usize = 24;
+/// From a thing to its ring, and of a ring over what it lies on, m.
+const OFF: f32 = 0.006;
+const OVER: f32 = 0.003;
+/// Cosine of a lean from which on a thing is marked along its side.
+const LIES: f32 = 0.7;
+/// Half a cross on the bench, m.
+const CROSS: f32 = 0.012;
+/// Sine of the tilt from which on a pour's line is shown: 10°.
+const TILTED: f32 = 0.17;
+
+/// What a press would take: a ring around its foot, or a line along a thing that lies or hangs.
+pub(super) fn mark(thing: &Thing, lines: &mut Vec<Line>) {
+    let (foot, axis) = (thing.pose.position, axis(thing));
+    if axis.y.abs() < LIES || slides(thing) {
+        let over = (thing.radius + OFF) * Vec3::Y;
+        lines.push(Line {
+            from: foot + over,
+            to: foot + thing.height * axis + over,
+            radius: THICK,
+        });
+        return;
+    }
+    ring(foot + OVER * Vec3::Y, thing.radius + OFF, THICK, lines);
+}
+
+/// Where a hand that holds nothing points on the bench.
+pub(super) fn cross(at: Vec3, lines: &mut Vec<Line>) {
+    for arm in [Vec3::X, Vec3::Z] {
+        lines.push(Line {
+            from: at + OVER * Vec3::Y - CROSS * arm,
+            to: at + OVER * Vec3::Y + CROSS * arm,
+            radius: THIN,
+        });
+    }
+}
+
+/// Of a held thing at that pose: its shadow straight below, and, where it is tilted and can be poured from, the way of the pour.
+pub(super) fn held(around: &Around, index: usize, pose: &Pose, lines: &mut Vec<Line>) {
+    let Some(thing) = around.things.get(index).filter(|it| !slides(it)) else {
+        return;
+    };
+    let axis = pose.orientation * Vec3::Y;
+    let middle = pose.position + 0.5 * thing.height * axis;
+    let shadow = under(around, index, middle);
+    ring(shadow + OVER * Vec3::Y, thing.radius, THIN, lines);
+    if !thing.flask {
+        return;
+    }
+    if let Some(lip) = lip(thing, pose) {
+        let to = under(around, index, lip);
+        lines.push(Line {
+            from: lip,
+            to,
+            radius: THICK,
+        });
+        ring(to + OVER * Vec3::Y, OFF, THICK, lines);
+    }
+}
+
+/// The lowest point of a tilted flask's rim; `None` where it is upright.
+pub(super) fn lip(thing: &Thing, pose: &Pose) -> Option<Vec3> {
+    let axis = pose.orientation * Vec3::Y;
+    let down = axis.y * axis - Vec3::Y;
+    let steep = down.length();
+    (steep > TILTED).then(|| {
+        let rim = pose.position + thing.height * axis;
+        rim + thing.rim / steep * down
+    })
+}
+
+/// What is straight below a point: the bottom of a flask through its mouth, the top of another thing, or the table.
+fn under(around: &Around, but: usize, point: Vec3) -> Vec3 {
+    let place = level(point);
+    let others = around.things.iter().enumerate();
+    let below = others
+        .filter(|&(index, it)| index != but && counts(it, around.table) && !slides(it))
+        .filter_map(|(_, it)| {
+            let foot = it.pose.position;
+            let away = level(foot).distance(place);
+            let stands = axis(it).y > LIES && foot.y < point.y;
+            let height = match it.flask && away < it.rim {
+                true => OVER,
+                false => it.height,
+            };
+            (stands && away < it.radius).then_some(foot.y + height)
+        });
+    point.with_y(below.fold(around.table, f32::max))
+}
+
+fn ring(middle: Vec3, radius: f32, thick: f32, lines: &mut Vec<Line>) {
+    let at = |n: usize| {
+        let around = radius * Vec2::from_angle(TAU * n as f32 / PARTS as f32);
+        middle + Vec3::new(around.x, 0.0, around.y)
+    };
+    lines.extend((0..PARTS).map(|n| Line {
+        from: at(n),
+        to: at(n + 1),
+        radius: thick,
+    }));
+}

@@ -1,0 +1,160 @@
+//! Flasks are carried, poured from and put down.
+
+use super::*;
+
+#[test]
+fn a_beginner_pours_and_breaks_nothing() {
+    for dt in RATES {
+        let mut bench = Bench::new(two_flasks(), dt);
+        bench.take();
+        let over = at_target() - 0.03 * Vec3::X;
+        bench.drag(at_source(), over);
+        bench.wait(3.0);
+        let held = bench.around.things[SOURCE].pose.position;
+        assert!((held.x - over.x).abs() < 0.005, "{held}");
+        assert!(held.y > TABLE + 0.110, "{held}");
+        bench.tilt(-1.0, 1.6);
+        let up = bench.up(SOURCE);
+        assert!(up.x > 0.9, "tilted to the right: {up}");
+        let lines = bench.hands.lines();
+        let down = |line: &&vitriol_xr::Line| {
+            let way = line.to - line.from;
+            way.x == 0.0 && way.z == 0.0 && way.y < -0.01
+        };
+        assert_eq!(lines.iter().filter(down).count(), 1, "the pour's line");
+        bench.tilt(1.0, 2.0);
+        bench.drag(over, at_source());
+        bench.wait(2.0);
+        bench.release();
+        bench.wait(8.0);
+        bench.stands(SOURCE);
+        assert_eq!(bench.now[1].squeeze, 0.0);
+        let back = bench.around.things[SOURCE].pose.position;
+        let start = two_flasks().things[SOURCE].pose.position;
+        assert!(back.distance(start) < 0.01, "{back}");
+    }
+}
+
+#[test]
+fn a_flask_is_not_put_down_on_glass() {
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    bench.take();
+    bench.drag(at_source(), at_target());
+    bench.wait(2.0);
+    bench.release();
+    bench.wait(6.0);
+    assert_eq!(bench.around.holds[1], Some(SOURCE));
+    // Held there it stays, wherever the pointer goes, until it is dragged away.
+    let there = bench.around.things[SOURCE].pose.position;
+    bench.drag(at_target(), at_source());
+    bench.wait(1.0);
+    let still = bench.around.things[SOURCE].pose.position;
+    assert!(still.distance(there) < 0.002, "{still}");
+    bench.point(at_target());
+    bench.press();
+    bench.drag(at_target(), at_target() + 0.15 * Vec3::X);
+    bench.wait(2.0);
+    bench.release();
+    bench.wait(6.0);
+    bench.stands(SOURCE);
+}
+
+#[test]
+fn the_other_hand_leaves_the_first_its_flask() {
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    bench.take();
+    bench.controls.other = true;
+    bench.frame();
+    assert_eq!(bench.hands.active(), Side::Left);
+    bench.release();
+    bench.wait(1.0);
+    bench.point(at_target());
+    bench.wait(3.0);
+    bench.press();
+    bench.wait(1.0);
+    assert_eq!(bench.around.holds, [Some(TARGET), Some(SOURCE)]);
+    // It was steadied where it stands.
+    let start = two_flasks().things[SOURCE].pose.position;
+    assert!(bench.around.things[SOURCE].pose.position.distance(start) < 1e-3);
+    bench.release();
+    bench.wait(2.0);
+    assert_eq!(bench.around.holds, [None, Some(SOURCE)]);
+    bench.stands(TARGET);
+}
+
+#[test]
+fn a_click_on_the_panel_pulls_a_trigger_and_grips_nothing() {
+    for dt in RATES {
+        let mut bench = Bench::new(two_flasks(), dt);
+        bench.point(at_source());
+        bench.wait(3.0);
+        let button = Vec3::new(0.1, 1.2, -0.80);
+        bench.point(button);
+        bench.press();
+        bench.controls.release = true;
+        bench.release();
+        let ray = (button - EYE).normalize();
+        let mut pulled = Vec::new();
+        for _ in 0..(5.0 / bench.counts) as usize {
+            bench.frame();
+            pulled.push(bench.now[1].trigger);
+            assert_eq!([bench.now[0].trigger, bench.now[1].squeeze], [0.0; 2]);
+            let along = bench.now[1].stage_from_aim.orientation * Vec3::NEG_Z;
+            assert!(along.dot(ray) > 0.99999);
+        }
+        let pulls = pulled.iter().filter(|it| **it == 1.0).count();
+        assert!(pulls >= 3, "{pulls} frames");
+        // It pointed before it pulled, and it has let go.
+        assert_eq!([pulled[0], *pulled.last().unwrap()], [0.0; 2]);
+        assert_eq!(bench.around.holds, [None; 2]);
+    }
+}
+
+#[test]
+fn keys_alone_pour() {
+    for dt in RATES {
+        let mut bench = Bench::new(two_flasks(), dt);
+        let walk = |bench: &mut Bench, right: f32, seconds: f32| {
+            bench.controls.walk = [right, 0.0];
+            bench.wait(seconds);
+            bench.controls.walk = [0.0; 2];
+            bench.wait(0.5);
+        };
+        // From the middle of the bench: 12 cm at 0.25 m/s.
+        walk(&mut bench, -1.0, 0.48);
+        bench.wait(3.0);
+        bench.controls.grip = true;
+        bench.frame();
+        bench.wait(2.0);
+        assert_eq!(bench.around.holds, [None, Some(SOURCE)]);
+        walk(&mut bench, 1.0, 2.0);
+        bench.tilt(-1.0, 1.6);
+        assert!(bench.up(SOURCE).x > 0.8, "{}", bench.up(SOURCE));
+        bench.tilt(1.0, 2.0);
+        walk(&mut bench, -1.0, 2.0);
+        bench.controls.grip = true;
+        bench.frame();
+        bench.wait(8.0);
+        bench.stands(SOURCE);
+    }
+}
+
+#[test]
+fn clicks_take_and_put_down_where_they_toggle() {
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_toggles(true);
+    bench.point(at_source());
+    bench.wait(3.0);
+    bench.press();
+    bench.release();
+    bench.wait(1.0);
+    assert_eq!(bench.around.holds[1], Some(SOURCE));
+    bench.drag(at_source(), at_source() - 0.1 * Vec3::X);
+    bench.wait(2.0);
+    bench.press();
+    bench.release();
+    bench.wait(5.0);
+    bench.stands(SOURCE);
+    let x = bench.around.things[SOURCE].pose.position.x;
+    assert!((x + 0.22).abs() < 0.005, "{x}");
+}

@@ -1,0 +1,337 @@
+//! Mouse and keyboard of the desk's window: what it sends, and what of it is held and new in a frame.
+
+use std::f32::consts::PI;
+
+use super::hands::Controls;
+use super::view::{Turns, Viewpoint};
+
+/// One event of mouse or keyboard in the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input {
+    /// The pointer moved there: 0 to 1 from the picture's upper left, beyond that beside it.
+    Pointer([f32; 2]),
+    /// A button of the mouse went down or up.
+    Button {
+        /// Which.
+        button: MouseButton,
+        /// Whether it went down.
+        down: bool,
+    },
+    /// The wheel turned by so many notches, up positive.
+    Wheel(f32),
+    /// A key went down or up; it does not repeat.
+    Key {
+        /// Which.
+        key: DeskKey,
+        /// Whether it went down.
+        down: bool,
+    },
+    /// The window lost the keyboard: all keys and buttons are up.
+    Left,
+}
+
+/// A button of the mouse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MouseButton {
+    /// The left one, for most.
+    Main,
+    /// The right one, for most.
+    Secondary,
+    /// The wheel.
+    Middle,
+}
+
+/// A key that moves hands or view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeskKey {
+    /// The active hand goes to the left.
+    Left,
+    /// It goes to the right.
+    Right,
+    /// It goes away from the viewer.
+    Up,
+    /// It comes nearer.
+    Down,
+    /// It rises.
+    Raise,
+    /// It sinks.
+    Lower,
+    /// It tilts to the left.
+    TiltLeft,
+    /// It tilts to the right.
+    TiltRight,
+    /// It takes hold, or puts down.
+    Grip,
+    /// The other hand becomes the active one.
+    OtherHand,
+    /// While it is held all is slower.
+    Slow,
+    /// While it is held, arrows and a drag turn the view.
+    Orbit,
+    /// A narrower view.
+    ZoomIn,
+    /// A wider view.
+    ZoomOut,
+    /// The bench from the side, and back.
+    SideView,
+    /// The panel fills the picture, and back.
+    PanelView,
+    /// The first view.
+    Home,
+    /// Full screen, and back.
+    FullScreen,
+    /// Presses the panel's button under the pointer.
+    Press,
+}
+
+/// Tilt that a drag over the picture's height with the secondary button asks for, rad.
+const TILTS: f32 = PI;
+/// Turn of the view that a drag over the picture's width asks for, rad, and rise of the eye over its height, m.
+const TURNS: f32 = PI;
+const RISES: f32 = 1.0;
+/// Notches of the wheel, turned with the view's key, that halve or double the view.
+const ZOOMS: f32 = 5.0;
+/// What is held, and what is new since the last frame.
+#[derive(Debug, Default)]
+pub struct Inputs {
+    keys: Vec<DeskKey>,
+    pointer: Option<[f32; 2]>,
+    /// From the pointer to the place that the hands follow: a drag that tilts does not move the hand.
+    aside: [f32; 2],
+    /// The main button is down, and is the hands'.
+    down: bool,
+    /// The secondary button is down.
+    tilting: bool,
+    /// The main button went down with the view's key, and turns the view.
+    turning: bool,
+    new: New,
+}
+
+/// What is new since the last frame.
+#[derive(Debug, Default)]
+struct New {
+    press: bool,
+    release: bool,
+    pointed: bool,
+    wheel: f32,
+    tilt: f32,
+    keys: Vec<DeskKey>,
+    turns: Turns,
+}
+
+impl Inputs {
+    /// Takes an event in.
+    pub fn take(&mut self, input: Input) {
+        match input {
+            Input::Pointer(at) => self.point(at),
+            Input::Wheel(notches) if self.is_held(DeskKey::Orbit) => {
+                self.new.turns.zoom += notches / ZOOMS;
+            }
+            Input::Wheel(notches) => self.new.wheel += notches,
+            Input::Button { button, down } => match (button, down) {
+                (MouseButton::Main, true) if self.is_held(DeskKey::Orbit) => self.turning = true,
+                (MouseButton::Main, true) => self.press(),
+                (MouseButton::Main, false) => {
+                    if !std::mem::take(&mut self.turning) {
+                        self.release();
+                    }
+                }
+                (MouseButton::Secondary, down) => self.tilting = down,
+                (MouseButton::Middle, _) => {}
+            },
+            Input::Key { key, down: true } => {
+                self.keys.push(key);
+                self.new.keys.push(key);
+                if key == DeskKey::OtherHand {
+                    // What this hand holds is no longer the button's.
+                    self.down = false;
+                }
+            }
+            Input::Key { key, down: false } => self.keys.retain(|it| *it != key),
+            Input::Left => {
+                self.keys.clear();
+                (self.tilting, self.turning) = (false, false);
+                self.release();
+            }
+        }
+    }
+
+    fn is_held(&self, key: DeskKey) -> bool {
+        self.keys.contains(&key)
+    }
+
+    fn point(&mut self, at: [f32; 2]) {
+        let before = self.pointer.replace(at).unwrap_or(at);
+        let [across, down] = [at[0] - before[0], at[1] - before[1]];
+        if self.turning {
+            // The bench goes with the pointer.
+            self.new.turns.yaw -= TURNS * across;
+            self.new.turns.rise += RISES * down;
+        } else if self.tilting {
+            self.new.tilt -= TILTS * down;
+            self.aside = [self.aside[0] - across, self.aside[1] - down];
+        } else {
+            self.new.pointed = true;
+        }
+    }
+
+    fn press(&mut self) {
+        self.down = true;
+        self.new.press = true;
+    }
+
+    fn release(&mut self) {
+        self.new.release |= std::mem::take(&mut self.down);
+    }
+
+    /// The place that the hands follow, 0 to 1 from the picture's upper left; in its middle as long as it has not moved.
+    pub fn pointer(&self) -> [f32; 2] {
+        let [x, y] = self.pointer.unwrap_or([0.5; 2]);
+        [x + self.aside[0], y + self.aside[1]].map(|at| at.clamp(0.0, 1.0))
+    }
+
+    /// Keys held against each other, -1 to 1.
+    fn axis(&self, less: DeskKey, more: DeskKey) -> f32 {
+        f32::from(u8::from(self.is_held(more))) - f32::from(u8::from(self.is_held(less)))
+    }
+
+    /// How the view is to turn in a frame that comes `passed` seconds after the last one. To be taken before [`Inputs::controls`].
+    pub fn turns(&mut self, passed: f32) -> Turns {
+        let mut turns = std::mem::take(&mut self.new.turns);
+        let share = if self.is_held(DeskKey::Slow) {
+            0.25
+        } else {
+            1.0
+        };
+        if self.is_held(DeskKey::Orbit) {
+            turns.yaw += share * passed * self.axis(DeskKey::Left, DeskKey::Right);
+            turns.rise += 0.5 * share * passed * self.axis(DeskKey::Down, DeskKey::Up);
+        }
+        turns.zoom += share * passed * self.axis(DeskKey::ZoomOut, DeskKey::ZoomIn);
+        let pressed = |key: DeskKey| self.new.keys.contains(&key);
+        turns.side = pressed(DeskKey::SideView);
+        turns.panel = pressed(DeskKey::PanelView);
+        turns.home = pressed(DeskKey::Home);
+        turns
+    }
+
+    /// The hands' controls in a frame that is seen from `view`, while the active hand `holds` something or not.
+    pub fn controls(&mut self, view: &Viewpoint, holds: bool) -> Controls {
+        if !(self.down || holds || self.tilting) {
+            self.aside = [0.0; 2];
+        }
+        let ray = view.ray(self.pointer());
+        let [right, away] = view.level();
+        let orbits = self.is_held(DeskKey::Orbit);
+        let walk = match orbits {
+            true => [0.0; 2],
+            false => [
+                self.axis(DeskKey::Left, DeskKey::Right),
+                self.axis(DeskKey::Down, DeskKey::Up),
+            ],
+        };
+        let new = std::mem::take(&mut self.new);
+        let edge = |key: DeskKey| new.keys.contains(&key);
+        Controls {
+            ray,
+            right,
+            away,
+            // A click between two frames counts.
+            pressed: self.down || new.press || new.release,
+            press: new.press,
+            release: new.release,
+            pointed: new.pointed,
+            wheel: new.wheel,
+            tilt_drag: new.tilt,
+            walk,
+            raise: self.axis(DeskKey::Lower, DeskKey::Raise),
+            tilt: self.axis(DeskKey::TiltRight, DeskKey::TiltLeft),
+            slow: self.is_held(DeskKey::Slow),
+            grip: edge(DeskKey::Grip),
+            other: edge(DeskKey::OtherHand),
+            panel_press: edge(DeskKey::Press),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn click(inputs: &mut Inputs, down: bool) {
+        let button = MouseButton::Main;
+        inputs.take(Input::Button { button, down });
+    }
+
+    fn key(inputs: &mut Inputs, key: DeskKey, down: bool) {
+        inputs.take(Input::Key { key, down });
+    }
+
+    /// Pressed, press and release of the next frame.
+    fn edges(inputs: &mut Inputs) -> [bool; 3] {
+        let controls = inputs.controls(&Viewpoint::default(), false);
+        [controls.pressed, controls.press, controls.release]
+    }
+
+    #[test]
+    fn a_click_between_two_frames_counts() {
+        let mut inputs = Inputs::default();
+        click(&mut inputs, true);
+        click(&mut inputs, false);
+        assert_eq!(edges(&mut inputs), [true, true, true]);
+        assert_eq!(edges(&mut inputs), [false; 3]);
+    }
+
+    /// With Ctrl the arrows turn the view and move no hand; without it they do.
+    #[test]
+    fn arrows_move_the_hand_or_the_view() {
+        let mut inputs = Inputs::default();
+        key(&mut inputs, DeskKey::Right, true);
+        assert_eq!(inputs.turns(0.1).yaw, 0.0);
+        let controls = inputs.controls(&Viewpoint::default(), false);
+        assert_eq!(controls.walk, [1.0, 0.0]);
+        key(&mut inputs, DeskKey::Orbit, true);
+        assert!(inputs.turns(0.1).yaw > 0.0);
+        let controls = inputs.controls(&Viewpoint::default(), false);
+        assert_eq!(controls.walk, [0.0; 2]);
+        // A drag with it turns the view, and takes nothing.
+        inputs.take(Input::Pointer([0.5, 0.5]));
+        click(&mut inputs, true);
+        inputs.take(Input::Pointer([0.4, 0.5]));
+        key(&mut inputs, DeskKey::Right, false);
+        assert!(inputs.turns(0.1).yaw > 0.2);
+        click(&mut inputs, false);
+        assert_eq!(edges(&mut inputs), [false; 3]);
+        // Left, all keys are up.
+        inputs.take(Input::Left);
+        key(&mut inputs, DeskKey::Left, true);
+        assert_eq!(inputs.turns(0.1).yaw, 0.0);
+    }
+
+    /// A drag with the secondary button tilts, and the hand stays where it was until it holds nothing.
+    #[test]
+    fn a_drag_tilts_and_does_not_move() {
+        let mut inputs = Inputs::default();
+        inputs.take(Input::Pointer([0.5, 0.5]));
+        click(&mut inputs, true);
+        inputs.controls(&Viewpoint::default(), true);
+        let button = MouseButton::Secondary;
+        inputs.take(Input::Button { button, down: true });
+        inputs.take(Input::Pointer([0.6, 0.25]));
+        let controls = inputs.controls(&Viewpoint::default(), true);
+        // A quarter of the height upwards: an eighth of a turn to the left.
+        assert!((controls.tilt_drag - 0.25 * PI).abs() < 1e-6);
+        assert!(!controls.pointed);
+        let near = |a: [f32; 2], b: [f32; 2]| (0..2).all(|side| (a[side] - b[side]).abs() < 1e-6);
+        assert!(near(inputs.pointer(), [0.5, 0.5]));
+        inputs.take(Input::Button {
+            button,
+            down: false,
+        });
+        inputs.take(Input::Pointer([0.6, 0.35]));
+        assert!(near(inputs.pointer(), [0.5, 0.6]));
+        click(&mut inputs, false);
+        inputs.controls(&Viewpoint::default(), false);
+        assert!(near(inputs.pointer(), [0.6, 0.35]));
+    }
+}
