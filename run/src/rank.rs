@@ -21,7 +21,7 @@ impl Ranks {
     }
 }
 
-/// Median, 95th and 99th percentile and the greatest of measured values; each is one of them.
+/// Median, 95th, 99th and 99.9th percentile and the greatest of measured values; each is one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Median.
@@ -30,6 +30,8 @@ pub struct Spread {
     pub p95: f64,
     /// 99th percentile.
     pub p99: f64,
+    /// 99.9th percentile.
+    pub p999: f64,
     /// The greatest.
     pub max: f64,
 }
@@ -42,6 +44,7 @@ impl Spread {
             p50: ranks.at(0.5)?,
             p95: ranks.at(0.95)?,
             p99: ranks.at(0.99)?,
+            p999: ranks.at(0.999)?,
             max: ranks.at(1.0)?,
         })
     }

@@ -12,19 +12,16 @@ use vitriol_session::desk::{self, DeskSpec};
 use vitriol_session::foveating::Foveating;
 use vitriol_session::latch::Grip;
 use vitriol_session::menu;
-use vitriol_session::placement::Posture;
 use vitriol_session::session::{Options, Session};
 
 /// Runs `vitriol desk`.
 ///
 /// # Errors
-/// [`Failure::NoDevice`] without a device; [`Failure::Input`] for a scene that is not there or a recording that is;
-/// [`Failure::Other`], also without a screen.
+/// [`Failure::NoDevice`] without a device or a screen; [`Failure::Input`] for a scene that is not there or a recording that is;
+/// [`Failure::Other`] where device or disk fails.
 pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     let shared = &args.session;
     let options = Options {
-        // The bench stays where the first view has it, however high the view goes.
-        posture: Posture::Seated,
         // A screen has no lenses, away from whose axes fewer pixels would do.
         foveating: Some(Foveating::Off),
         pointer: true,

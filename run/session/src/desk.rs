@@ -9,6 +9,7 @@ mod view;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
+use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 use vitriol_run::Failure;
 use vitriol_xr::{
@@ -22,7 +23,7 @@ use self::input::{Input, Inputs};
 use self::view::Viewpoint;
 use crate::decision::Decision;
 use crate::mirror::{Display, Extent, Opening, Window};
-use crate::placement::SCENE_TABLE;
+use crate::placement::{SCENE_TABLE, SEATED};
 use crate::stand_in::EPOCH;
 
 /// How a desk's window opens, and what a click does.
@@ -59,6 +60,9 @@ pub struct Desk {
     /// Whether it is.
     lost: bool,
 }
+
+/// The head of who sits at the bench and has these hands. The eye of the window is farther back, so that it has bench and panel before it.
+const USER: Pose = Pose::new(Vec3::new(0.0, SCENE_TABLE + SEATED, 0.0), Quat::IDENTITY);
 
 /// What to do where there is no screen.
 const REMEDY: &str = "a desk needs a screen; start it from a graphical login, or simulate recorded hands \
@@ -124,7 +128,7 @@ impl Desk {
             window: window.shared_extent(),
             events,
             inputs: Inputs::default(),
-            hands: Hands::new(&view.pose(), SCENE_TABLE).with_toggles(spec.toggles),
+            hands: Hands::new(&USER, SCENE_TABLE).with_toggles(spec.toggles),
             view,
             around: Around {
                 table: SCENE_TABLE,

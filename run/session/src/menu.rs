@@ -69,7 +69,7 @@ pub fn mouse_lines() -> String {
         ("arrows", "move the hand; with Ctrl the view"),
         ("Space", "takes and puts down, without the mouse"),
         ("Tab", "the other hand"),
-        ("P, V", "the panel, the bench from the side; again: back"),
+        ("R, V", "the panel, the bench from the side; again: back"),
         ("F11", "the whole screen"),
         ("Esc", "end, pressed twice"),
     ] {

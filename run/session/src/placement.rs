@@ -57,6 +57,8 @@ pub struct Placement {
     pub last: Option<PoseFrame>,
     /// Where the head was in the last frame that was shown, if some were not.
     interrupted: Option<Pose>,
+    /// The bench stays where it is, wherever the head goes.
+    fixed: bool,
 }
 
 impl Placement {
@@ -68,6 +70,16 @@ impl Placement {
             stage_from_scene: None,
             last: None,
             interrupted: None,
+            fixed: false,
+        }
+    }
+
+    /// Of an eye that goes round a bench, which stays where its scene has it.
+    pub fn of_scene() -> Self {
+        Self {
+            stage_from_scene: Some(Pose::IDENTITY),
+            fixed: true,
+            ..Self::new(Posture::default())
         }
     }
 
@@ -93,7 +105,8 @@ impl Placement {
     /// it; then the last frame is forgotten, since between it and the next one lies the leap.
     pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Action> {
         let interrupted = self.interrupted.take();
-        let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
+        let is_gone = |then| !self.fixed && is_elsewhere(&then, &now.stage_from_view);
+        let elsewhere = interrupted.is_some_and(is_gone);
         if asked || elsewhere || !self.is_known() {
             self.stage_from_scene = Some(before(&now.stage_from_view, self.posture, self.chosen));
         } else if interrupted.is_none() {
@@ -217,6 +230,20 @@ mod tests {
                 // Straight down, the direction is what rounding leaves of it.
                 assert!((table - expected).length() < 2e-3, "{table} {expected}");
             }
+        }
+    }
+
+    /// An eye that goes round the bench does not take it along, nor after an interruption.
+    #[test]
+    fn a_bench_of_the_scene_stays() {
+        let mut placement = Placement::of_scene();
+        for far in [0.0, 2.0] {
+            placement.last = Some(seen(head(1.2, 0.0, 0.0)));
+            if far > 0.0 {
+                placement.interrupt();
+            }
+            placement.place(&seen(head(1.2 + far, 2.0, 0.0)), false);
+            assert_eq!(placement.stage_from_scene(), Pose::IDENTITY, "{far}");
         }
     }
 

@@ -271,7 +271,10 @@ impl Session {
         Ok(Self {
             benches,
             choices: Choices::new(decisions),
-            placement: Placement::new(options.posture),
+            placement: match options.pointer {
+                true => Placement::of_scene(),
+                false => Placement::new(options.posture),
+            },
             fade: Fade::default(),
             handles: Handles::default(),
             latches: (toggles && !options.pointer).then(Latches::default),

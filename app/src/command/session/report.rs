@@ -265,13 +265,20 @@ pub fn describe(session: &SessionReport) -> String {
             session.watched.as_ref().and_then(|it| it.switch_ms),
         ),
     ];
-    text += "                                median      95 %      99 %      most\n";
+    text += "                                median      95 %      99 %    99.9 %      most\n";
     for (name, spread) in rows {
-        if let Some(Spread { p50, p95, p99, max }) = spread {
+        if let Some(Spread {
+            p50,
+            p95,
+            p99,
+            p999,
+            max,
+        }) = spread
+        {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {max:>9.3}"
+                "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {p999:>9.3} {max:>9.3}"
             );
         }
     }

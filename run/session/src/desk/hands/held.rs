@@ -20,6 +20,8 @@ const CARRIED: Clear = Clear {
 };
 /// The same over glass while it is tilted: a pour falls no further than it must.
 const TILTED_GLASS: f32 = 0.01;
+/// Tilt from which on all of that holds, rad.
+const TILTED: f32 = 0.25 * FRAC_PI_2;
 /// A tool lower than this, m, is a cloth, which wipes the table.
 const FLAT: f32 = 0.03;
 const WIPES: f32 = 0.001;
@@ -89,7 +91,8 @@ pub(super) struct Held {
     /// Where it is to be, from above, m; of a sash, how high.
     aim: Vec2,
     slid: f32,
-    /// Height over what it clears, m.
+    /// Height of the held point that clears what is in the way, m, and the height over that.
+    cleared: f32,
     lift: f32,
     /// Tilt to the left as the user sees it, rad, about an axis that looks at the user.
     tilt: f32,
@@ -132,6 +135,7 @@ impl Held {
             drag,
             aim: level(at),
             slid: at.y,
+            cleared: at.y,
             lift: 0.0,
             tilt: 0.0,
             towards: Vec3::Z,
@@ -223,7 +227,7 @@ impl Held {
 
     /// The distances that it keeps now, m.
     fn kept(&self) -> Clear {
-        let share = (self.tilt_now().abs() / (0.25 * FRAC_PI_2)).clamp(0.0, 1.0);
+        let share = (self.tilt_now().abs() / TILTED).clamp(0.0, 1.0);
         Clear {
             glass: self.clear.glass + share * (TILTED_GLASS - self.clear.glass),
             ..self.clear
@@ -282,7 +286,14 @@ impl Held {
             .floor(&here, at, &Clear::HARD)
             .max(bench.floor(&soon, at, &Clear::HARD));
         self.lift = self.lift.max(WIPES - kept.table);
-        let height = (clears + self.lift).max(least + WIPES);
+        // What is tilted does not sink by itself: keys that are tapped bring it over a rim bit by bit, and a pour is left where it is.
+        let stays = self.putting.is_none() && self.tilt_now().abs() > TILTED;
+        self.cleared = if stays {
+            clears.max(self.cleared)
+        } else {
+            clears
+        };
+        let height = (self.cleared + self.lift).max(least + WIPES);
         // What the user lowered is carried on as low as that.
         let low = |kept: f32, least: f32| {
             let lowered = kept + self.lift - 0.5 * WIPES;

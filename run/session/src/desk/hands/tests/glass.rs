@@ -139,6 +139,33 @@ fn keys_alone_pour() {
     }
 }
 
+/// Tilted with its lip lower than the other's rim, it comes over that by keys that are only tapped.
+#[test]
+fn taps_bring_a_tilted_flask_over_a_rim() {
+    let mut bench = Bench::new(two_flasks(), 0.1);
+    bench.take();
+    bench.drag(at_source(), at_source() + 0.12 * Vec3::X);
+    bench.wait(2.0);
+    bench.tilt(-1.0, 0.8);
+    assert!(bench.up(SOURCE).x > 0.5, "{}", bench.up(SOURCE));
+    bench.controls.slow = true;
+    let lip = |bench: &Bench| {
+        let it = &bench.around.things[SOURCE];
+        let at = it.pose.transform_point(Vec3::new(it.rim, it.height, 0.0));
+        at.x - bench.around.things[TARGET].pose.position.x
+    };
+    assert!(lip(&bench) < -0.04, "{}", lip(&bench));
+    // Each tap is a frame, and 6 mm at most.
+    let taps = (0..60).find(|_| {
+        bench.controls.walk = [1.0, 0.0];
+        bench.frame();
+        bench.controls.walk = [0.0; 2];
+        bench.wait(0.3);
+        lip(&bench) > -0.015
+    });
+    assert!(taps.is_some(), "{} m", lip(&bench));
+}
+
 #[test]
 fn clicks_take_and_put_down_where_they_toggle() {
     let mut bench = Bench::new(two_flasks(), RATES[0]);
