@@ -31,7 +31,7 @@ const ENOUGH: f32 = 0.4;
 const SINKS: f32 = 0.15;
 /// How far over the table the foot stops, and from where on it stands, m.
 const STOPS: f32 = 0.0005;
-const STANDS: f32 = 0.0015;
+const STANDS: f32 = 0.0013;
 /// A sideways way or a tilt (m, rad) from which on a body leaves the table.
 const STIRS: f32 = 0.005;
 /// How far a sash's bar goes up from the table, m (`SASH_TRAVEL` of the scene, and the bar).
