@@ -112,9 +112,11 @@ fn look() -> Findings {
     }
 }
 
-/// Whether there is a screen for the window of `vitriol desk`: on Linux an X server's, which it does not ask.
+/// Whether there is a screen for the window of `vitriol desk`: on Linux that of a server, which it does not ask.
 fn has_screen() -> bool {
-    !cfg!(target_os = "linux") || std::env::var_os("DISPLAY").is_some()
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    let on_wayland = cfg!(feature = "wayland") && is_set("WAYLAND_DISPLAY");
+    !cfg!(target_os = "linux") || is_set("DISPLAY") || on_wayland
 }
 
 /// The parts of OpenXR that are there, and those that are missing.
@@ -177,6 +179,9 @@ fn describe(findings: &Findings) -> String {
     if let Some(screen) = findings.screen {
         let remedy = match screen {
             true => "",
+            false if cfg!(feature = "wayland") => {
+                ": none, WAYLAND_DISPLAY and DISPLAY are not set; `vitriol desk` needs a Wayland compositor or an X server"
+            }
             false => ": none, DISPLAY is not set; `vitriol desk` needs an X server",
         };
         let _ = writeln!(text, "{} screen{remedy}", mark(screen));

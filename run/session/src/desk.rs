@@ -2,6 +2,8 @@
 //! keyboard.
 
 mod clock;
+#[cfg(feature = "gamepad")]
+mod gamepad;
 mod hands;
 pub(crate) mod input;
 mod view;
@@ -47,6 +49,8 @@ pub struct Desk {
     wanted: [u32; 2],
     window: Arc<Extent>,
     events: Receiver<Input>,
+    #[cfg(feature = "gamepad")]
+    gamepad: gamepad::Gamepad,
     inputs: Inputs,
     view: Viewpoint,
     hands: Hands,
@@ -127,6 +131,8 @@ impl Desk {
             wanted: spec.size,
             window: window.shared_extent(),
             events,
+            #[cfg(feature = "gamepad")]
+            gamepad: gamepad::Gamepad::open(),
             inputs: Inputs::default(),
             hands: Hands::new(&USER, SCENE_TABLE).with_toggles(spec.toggles),
             view,
@@ -150,8 +156,10 @@ impl Desk {
         self
     }
 
-    /// Takes the events of mouse and keyboard; `false` once the window is closed.
+    /// Takes the events of gamepad, mouse and keyboard; `false` once the window is closed.
     fn take_events(&mut self) -> bool {
+        #[cfg(feature = "gamepad")]
+        self.gamepad.poll(&mut self.inputs);
         loop {
             match self.events.try_recv() {
                 Ok(input) => self.inputs.take(input),

@@ -1,11 +1,11 @@
-//! Mouse and keyboard of the desk's window: what it sends, and what of it is held and new in a frame.
+//! Mouse and keyboard of the desk's window, and a gamepad: what they send, and what of it is held and new in a frame.
 
 use std::f32::consts::PI;
 
 use super::hands::Controls;
 use super::view::{Turns, Viewpoint};
 
-/// One event of mouse or keyboard in the window.
+/// One event of mouse or keyboard in the window, or of a gamepad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Input {
     /// The pointer moved there: 0 to 1 from the picture's upper left, beyond that beside it.
@@ -28,6 +28,22 @@ pub enum Input {
     },
     /// The window lost the keyboard: all keys and buttons are up.
     Left,
+    /// The sticks of a gamepad are there now.
+    #[cfg_attr(not(feature = "gamepad"), allow(dead_code))]
+    Axes(Axes),
+}
+
+/// How far sticks are moved, -1 to 1 each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Axes {
+    /// The active hand goes to the right, and away from the viewer.
+    pub walk: [f32; 2],
+    /// It rises.
+    pub raise: f32,
+    /// It tilts to the left.
+    pub tilt: f32,
+    /// The eye goes to the right about the bench, and rises.
+    pub turn: [f32; 2],
 }
 
 /// A button of the mouse.
@@ -95,6 +111,7 @@ const ZOOMS: f32 = 5.0;
 #[derive(Debug, Default)]
 pub struct Inputs {
     keys: Vec<DeskKey>,
+    axes: Axes,
     pointer: Option<[f32; 2]>,
     /// From the pointer to the place that the hands follow: a drag that tilts does not move the hand.
     aside: [f32; 2],
@@ -153,6 +170,7 @@ impl Inputs {
                 (self.tilting, self.turning) = (false, false);
                 self.release();
             }
+            Input::Axes(axes) => self.axes = axes,
         }
     }
 
@@ -203,10 +221,13 @@ impl Inputs {
         } else {
             1.0
         };
+        let [mut across, mut up] = self.axes.turn;
         if self.is_held(DeskKey::Orbit) {
-            turns.yaw += share * passed * self.axis(DeskKey::Left, DeskKey::Right);
-            turns.rise += 0.5 * share * passed * self.axis(DeskKey::Down, DeskKey::Up);
+            across += self.axis(DeskKey::Left, DeskKey::Right);
+            up += self.axis(DeskKey::Down, DeskKey::Up);
         }
+        turns.yaw += share * passed * across;
+        turns.rise += 0.5 * share * passed * up;
         turns.zoom += share * passed * self.axis(DeskKey::ZoomOut, DeskKey::ZoomIn);
         let pressed = |key: DeskKey| self.new.keys.contains(&key);
         turns.side = pressed(DeskKey::SideView);
@@ -222,14 +243,16 @@ impl Inputs {
         }
         let ray = view.ray(self.pointer());
         let [right, away] = view.level();
-        let orbits = self.is_held(DeskKey::Orbit);
-        let walk = match orbits {
-            true => [0.0; 2],
-            false => [
-                self.axis(DeskKey::Left, DeskKey::Right),
-                self.axis(DeskKey::Down, DeskKey::Up),
-            ],
-        };
+        let Axes {
+            mut walk,
+            raise,
+            tilt,
+            ..
+        } = self.axes;
+        if !self.is_held(DeskKey::Orbit) {
+            walk[0] += self.axis(DeskKey::Left, DeskKey::Right);
+            walk[1] += self.axis(DeskKey::Down, DeskKey::Up);
+        }
         let new = std::mem::take(&mut self.new);
         let edge = |key: DeskKey| new.keys.contains(&key);
         Controls {
@@ -244,8 +267,8 @@ impl Inputs {
             wheel: new.wheel,
             tilt_drag: new.tilt,
             walk,
-            raise: self.axis(DeskKey::Lower, DeskKey::Raise),
-            tilt: self.axis(DeskKey::TiltRight, DeskKey::TiltLeft),
+            raise: raise + self.axis(DeskKey::Lower, DeskKey::Raise),
+            tilt: tilt + self.axis(DeskKey::TiltRight, DeskKey::TiltLeft),
             slow: self.is_held(DeskKey::Slow),
             grip: edge(DeskKey::Grip),
             other: edge(DeskKey::OtherHand),
@@ -306,6 +329,29 @@ mod tests {
         inputs.take(Input::Left);
         key(&mut inputs, DeskKey::Left, true);
         assert_eq!(inputs.turns(0.1).yaw, 0.0);
+    }
+
+    /// Sticks add to keys, and stay where they are from frame to frame; they move the hand with Ctrl too, as they are not the arrows.
+    #[test]
+    fn sticks_move_the_hand_and_the_view() {
+        let mut inputs = Inputs::default();
+        inputs.take(Input::Axes(Axes {
+            walk: [0.5, -0.25],
+            raise: 0.75,
+            tilt: -1.0,
+            turn: [1.0, -1.0],
+        }));
+        key(&mut inputs, DeskKey::TiltLeft, true);
+        key(&mut inputs, DeskKey::Orbit, true);
+        for _ in 0..2 {
+            let turns = inputs.turns(0.1);
+            assert!(turns.yaw > 0.0 && turns.rise < 0.0);
+            let controls = inputs.controls(&Viewpoint::default(), false);
+            assert_eq!(controls.walk, [0.5, -0.25]);
+            assert_eq!((controls.raise, controls.tilt), (0.75, 0.0));
+        }
+        inputs.take(Input::Axes(Axes::default()));
+        assert_eq!(inputs.turns(0.1), Turns::default());
     }
 
     /// A drag with the secondary button tilts, and the hand stays where it was until it holds nothing.

@@ -141,8 +141,8 @@ impl Window {
     /// Shows it on a thread of its own. Between its pictures is `every` (ns) at least, and their sides are `longest` (pixels) at most.
     fn show(asked: Asked, (every, longest): (i64, u32)) -> Result<Self, Failure> {
         // winit's own message for this names a line of its source.
-        if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() {
-            return Err("there is no X server (DISPLAY is not set)").other();
+        if cfg!(target_os = "linux") && !names_screen() {
+            return Err(NO_SCREEN).other();
         }
         let extent = Arc::clone(&asked.extent);
         let (opened, opening) = channel();
@@ -216,9 +216,23 @@ impl Drop for Window {
     }
 }
 
+/// What is said where the environment names no screen.
+const NO_SCREEN: &str = if cfg!(feature = "wayland") {
+    "there is neither a Wayland compositor nor an X server (WAYLAND_DISPLAY and DISPLAY are not set)"
+} else {
+    "there is no X server (DISPLAY is not set)"
+};
+
+/// Whether the environment names a screen on Linux. If it names both, winit takes Wayland's.
+fn names_screen() -> bool {
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    is_set("DISPLAY") || (cfg!(feature = "wayland") && is_set("WAYLAND_DISPLAY"))
+}
+
 /// An event loop outside the main thread, on which the frame loop runs.
 fn event_loop() -> Result<EventLoop<Say>, EventLoopError> {
     let mut builder = EventLoop::with_user_event();
+    // Wayland's trait sets the same flag.
     #[cfg(target_os = "linux")]
     winit::platform::x11::EventLoopBuilderExtX11::with_any_thread(&mut builder, true);
     #[cfg(windows)]
@@ -283,6 +297,8 @@ impl Face {
         asked.extent.set(frame.inner_size().into());
         if let Some(opened) = asked.opened.take() {
             let monitor = frame.current_monitor().or_else(|| frame.primary_monitor());
+            // On Wayland a window is on no monitor before its first picture.
+            let monitor = monitor.or_else(|| events.available_monitors().next());
             let size = monitor.as_ref().map(|monitor| monitor.size().into());
             let rate_mhz = monitor.and_then(|monitor| monitor.refresh_rate_millihertz());
             // Where nobody waits any more, the window is closed soon.

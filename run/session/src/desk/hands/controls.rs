@@ -1,4 +1,4 @@
-//! What mouse and keyboard ask of the hands in a frame.
+//! What mouse, keyboard and gamepad ask of the hands in a frame.
 
 use glam::Vec3;
 
@@ -27,11 +27,11 @@ pub struct Controls {
     pub wheel: f32,
     /// Tilt asked for by the mouse since the last frame, rad, to the left as the viewer sees it.
     pub tilt_drag: f32,
-    /// Keys held, -1 to 1: to the right, and away.
+    /// Keys or a stick held, -1 to 1: to the right, and away.
     pub walk: [f32; 2],
-    /// Keys held, -1 to 1: up.
+    /// Keys or a stick held, -1 to 1: up.
     pub raise: f32,
-    /// Keys held, -1 to 1: tilt to the left.
+    /// Keys or a stick held, -1 to 1: tilt to the left.
     pub tilt: f32,
     /// The key for slow motion is held.
     pub slow: bool,
