@@ -11,7 +11,7 @@ pub struct DeskArgs {
     /// What all sessions have
     #[command(flatten)]
     pub session: SessionArgs,
-    /// Width and height of the window when it opens, pixels
+    /// Width and height of the window when it opens, pixels; a screen of high density scales them
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size, allow_hyphen_values = true)]
     pub size: [u32; 2],
     /// Let the window fill the screen; F11 changes that

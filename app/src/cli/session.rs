@@ -28,9 +28,10 @@ pub struct SessionArgs {
     /// Language of the panel, of the lesson and of what the console is told: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
-    /// Trade of speed for accuracy
-    #[arg(long, value_parser = preset(), default_value = "balanced")]
-    pub preset: Preset,
+    /// Trade of speed for accuracy; without it balanced, but `vitriol desk` takes fast on an
+    /// integrated, virtual or software device
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
     /// In place of a preset: the most accurate setting by which a step's solution
     /// takes at most so many milliseconds on this device (99th percentile)
     #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["preset", "solver"])]

@@ -2,8 +2,9 @@
 
 use std::sync::mpsc::channel;
 
-use vitriol_gpu::{Gpu, PlainLoader};
+use vitriol_gpu::{Gpu, PlainLoader, vk};
 use vitriol_run::{Failure, Format, device};
+use vitriol_sim::scene::Preset;
 use vitriol_xr::Headset;
 
 use crate::cli::DeskArgs;
@@ -21,13 +22,14 @@ use vitriol_session::session::{Options, Session};
 /// [`Failure::Other`] where device or disk fails.
 pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     let shared = &args.session;
-    let options = Options {
+    let mut options = Options {
         // A screen has no lenses, away from whose axes fewer pixels would do.
         foveating: Some(Foveating::Off),
         pointer: true,
         ..session::options(shared)?
     };
     let gpu = device::timed(args.device.as_deref(), session::timestamps(&options))?;
+    options.plan.preset = (shared.preset).unwrap_or_else(|| usual(gpu.info().kind));
     if format == Format::Text {
         let info = gpu.info();
         let text = session::starting("the session", &info.name, info.kind);
@@ -52,4 +54,27 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     let session = Session::new(&desk, options, taken)?.mirrored(window)?;
     let outcome = session.run(&mut desk)?;
     prepared.end(report::report(desk.name().to_owned(), &outcome, None)?)
+}
+
+/// The preset where none is asked for. Computers that have no headset often have no graphics card of their own, and `fast` has a
+/// fraction of the particles.
+fn usual(kind: vk::PhysicalDeviceType) -> Preset {
+    match kind {
+        vk::PhysicalDeviceType::DISCRETE_GPU => Preset::Balanced,
+        _ => Preset::Fast,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_graphics_card_has_the_balanced_preset() {
+        use vk::PhysicalDeviceType as Kind;
+        assert_eq!(usual(Kind::DISCRETE_GPU), Preset::Balanced);
+        for kind in [Kind::INTEGRATED_GPU, Kind::VIRTUAL_GPU, Kind::CPU] {
+            assert_eq!(usual(kind), Preset::Fast, "{kind:?}");
+        }
+    }
 }

@@ -9,6 +9,7 @@ use std::sync::mpsc::Sender;
 use vitriol_gpu::{Gpu, Timestamps, vk};
 use vitriol_lesson::{Rubric, Texts};
 use vitriol_run::{Blame, Failure, Format, Scenes, emit};
+use vitriol_sim::scene::Preset;
 use vitriol_sound::Device;
 
 use self::report::SessionReport;
@@ -169,7 +170,7 @@ pub fn options(args: &SessionArgs) -> Result<Options, Failure> {
         plan: Plan {
             scene: scenes.open(&scene)?,
             scenes,
-            preset: args.preset,
+            preset: args.preset.unwrap_or(Preset::Balanced),
             breakable: args.breakable,
             seed: args.seed,
             solver: None,

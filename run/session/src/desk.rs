@@ -31,7 +31,7 @@ use crate::stand_in::EPOCH;
 /// How a desk's window opens, and what a click does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeskSpec {
-    /// Width and height of the window as it opens, pixels.
+    /// Width and height of the window as it opens, pixels of a screen of the usual density.
     pub size: [u32; 2],
     /// Whether it fills the screen.
     pub full_screen: bool,
@@ -43,7 +43,7 @@ pub struct DeskSpec {
 pub struct Desk {
     gpu: Gpu,
     targets: Targets,
-    /// Width and height of the largest picture, pixels: those of the screen.
+    /// Width and height of the largest picture, pixels: those of the largest screen.
     largest: [u32; 2],
     /// Width and height of this frame's picture, pixels.
     wanted: [u32; 2],
@@ -65,8 +65,13 @@ pub struct Desk {
     lost: bool,
 }
 
-/// The head of who sits at the bench and has these hands. The eye of the window is farther back, so that it has bench and panel before it.
-const USER: Pose = Pose::new(Vec3::new(0.0, SCENE_TABLE + SEATED, 0.0), Quat::IDENTITY);
+/// The head of who sits at the bench and has these hands: it stays, so that what is worn comes to it. The eye of the window goes round the
+/// bench, and is farther back, so that it has bench and panel before it.
+const USER: Pose = Pose::new(
+    Vec3::new(0.0, SCENE_TABLE + SEATED, 0.0),
+    // Half a radian down, at the vessels.
+    Quat::from_xyzw(-0.247_404, 0.0, 0.0, 0.968_912_4),
+);
 
 /// What to do where there is no screen.
 const REMEDY: &str = "a desk needs a screen; start it from a graphical login, or simulate recorded hands \
@@ -122,13 +127,12 @@ impl Desk {
         (window, events): (&Window, Receiver<Input>),
         targets: Targets,
     ) -> Self {
-        let screen = display.size.unwrap_or(spec.size);
-        let largest = [0, 1].map(|side| screen[side].max(spec.size[side]).max(1));
+        let largest = display.largest.map(|side| side.max(1));
         let (rate, view) = (rate(display.rate_mhz), Viewpoint::default());
         Self {
             targets,
             largest,
-            wanted: spec.size,
+            wanted: window.extent().unwrap_or(largest),
             window: window.shared_extent(),
             events,
             #[cfg(feature = "gamepad")]
@@ -136,7 +140,9 @@ impl Desk {
             inputs: Inputs::default(),
             hands: Hands::new(&USER, SCENE_TABLE).with_toggles(spec.toggles),
             view,
+            // No frame takes simulated time before the first one is shown.
             around: Around {
+                pace: 1.0,
                 table: SCENE_TABLE,
                 ..Around::default()
             },
@@ -156,13 +162,17 @@ impl Desk {
         self
     }
 
-    /// Takes the events of gamepad, mouse and keyboard; `false` once the window is closed.
+    /// Takes the events of gamepad, mouse and keyboard; `false` once the window is closed. Of those before the first frame, which show nothing,
+    /// only the pointer's place counts.
     fn take_events(&mut self) -> bool {
         #[cfg(feature = "gamepad")]
         self.gamepad.poll(&mut self.inputs);
         loop {
             match self.events.try_recv() {
-                Ok(input) => self.inputs.take(input),
+                Ok(input) if self.index > 0 || matches!(input, Input::Pointer(_)) => {
+                    self.inputs.take(input);
+                }
+                Ok(_) => {}
                 Err(TryRecvError::Empty) => return true,
                 Err(TryRecvError::Disconnected) => return false,
             }
@@ -175,13 +185,14 @@ impl Desk {
         let turns = self.inputs.turns(passed);
         let panel = self.around.panel;
         self.view.advance(&turns, panel, width / height, passed);
-        let holds = self.around.holds[self.hands.active() as usize].is_some();
-        let controls = self.inputs.controls(&self.view, holds);
-        let hands: [Hand; 2] = self.hands.advance(&controls, &self.around, passed);
+        let controls = self.inputs.controls(&self.view);
+        // The view is of the screen, and hands are of the bench.
+        let simulated = self.around.simulated(passed);
+        let hands: [Hand; 2] = self.hands.advance(&controls, &self.around, simulated);
         PoseFrame {
             step: 0,
             time_ns: 0,
-            stage_from_view: self.view.pose(),
+            stage_from_view: USER,
             hands,
             scenario: Vec::new(),
             info: FrameInfo {

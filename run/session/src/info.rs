@@ -1,4 +1,4 @@
-//! A session's state, as the panel and the mirror window's title show it.
+//! A session's state, as the panel and the window's title show it.
 
 use vitriol_lesson::Tone;
 

@@ -65,15 +65,21 @@ pub fn mouse_lines() -> String {
             "held and moved up or down: tilts what the hand holds",
         ),
         ("Q, E", "tilt to the left, to the right"),
+        ("W", "held: swirls what the hand holds"),
         ("wheel", "raises and lowers the hand"),
+        (
+            "wheel pressed",
+            "moved: turns the view; clicked: the other hand",
+        ),
         ("arrows", "move the hand; with Ctrl the view"),
         ("Space", "takes and puts down, without the mouse"),
         ("Tab", "the other hand"),
+        ("G", "gloves on or off"),
         ("R, V", "the panel, the bench from the side; again: back"),
         ("F11", "the whole screen"),
         ("Esc", "end, pressed twice"),
     ] {
-        text += &format!("\n  {control:<12}  {does}");
+        text += &format!("\n  {control:<13}  {does}");
     }
     text
 }

@@ -36,7 +36,7 @@ use vitriol_run::run::{RecordingStatus, TrackRecording};
 use vitriol_run::{Action, Blame, Failure, Judging, Run, track};
 use vitriol_sim::world::World;
 use vitriol_sound::Device;
-use vitriol_xr::{Headset, Pause, Turn};
+use vitriol_xr::{Headset, Pause, Pose, Turn};
 
 use vitriol_live::Console;
 
@@ -214,6 +214,10 @@ pub struct Session {
     texts: Texts,
     /// Whether mouse and keyboard move the hands.
     pointer: bool,
+    /// From where a screen's picture was seen last, in the scene's stage; `None` in a headset, whose eyes are the head's.
+    eye: Option<Pose>,
+    /// Benches so far, the present one included.
+    scenes: u64,
 }
 
 impl Session {
@@ -299,6 +303,8 @@ impl Session {
             losses: Losses::default(),
             texts,
             pointer: options.pointer,
+            eye: None,
+            scenes: 1,
         })
     }
 
@@ -319,6 +325,10 @@ impl Session {
     /// An error of headset or device.
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
+        // The window of a pointer is there before its picture: who clicks and types in it meanwhile sees nothing.
+        if self.pointer && self.choices.forget(Instant::now()) {
+            headset.request_exit().map_err(blame)?;
+        }
         loop {
             let ends = self.choices.hear(Instant::now());
             if self.obey() || ends {

@@ -297,7 +297,12 @@ impl Headset for Used {
             let last = (self.frame.as_ref()).map_or(now, |last| last.info.xr_time);
             let passed = 1e-9 * (now - last) as f64;
             self.simulated += passed.min(f64::from(MOST_STEPS) * STEP);
-            self.frame = Some(frame.poses.clone());
+            // The user sees the window's picture; the recorded head stays.
+            let [eye, _] = self.desk.locate_views()?;
+            self.frame = Some(PoseFrame {
+                stage_from_view: eye.stage_from_eye,
+                ..frame.poses.clone()
+            });
             self.fresh = true;
         }
         Ok(turn)

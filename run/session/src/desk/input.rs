@@ -76,10 +76,14 @@ pub enum DeskKey {
     TiltLeft,
     /// It tilts to the right.
     TiltRight,
+    /// While it is held, the hand swirls what it holds.
+    Swirl,
     /// It takes hold, or puts down.
     Grip,
     /// The other hand becomes the active one.
     OtherHand,
+    /// Gloves on or off.
+    Gloves,
     /// While it is held all is slower.
     Slow,
     /// While it is held, arrows and a drag turn the view.
@@ -107,20 +111,24 @@ const TURNS: f32 = PI;
 const RISES: f32 = 1.0;
 /// Notches of the wheel, turned with the view's key, that halve or double the view.
 const ZOOMS: f32 = 5.0;
+/// Way of the pointer, in shares of the picture, up to which the middle button is clicked and not dragged. Our choice: a hand that clicks
+/// moves it by some pixels.
+const CLICKS: f32 = 0.01;
+
 /// What is held, and what is new since the last frame.
 #[derive(Debug, Default)]
 pub struct Inputs {
     keys: Vec<DeskKey>,
     axes: Axes,
     pointer: Option<[f32; 2]>,
-    /// From the pointer to the place that the hands follow: a drag that tilts does not move the hand.
-    aside: [f32; 2],
+    /// While the secondary button is down, where the pointer was when it went down: a drag that tilts does not move the hand.
+    tilting: Option<[f32; 2]>,
     /// The main button is down, and is the hands'.
     down: bool,
-    /// The secondary button is down.
-    tilting: bool,
     /// The main button went down with the view's key, and turns the view.
     turning: bool,
+    /// While the middle button is down, the pointer's way since it went down, in shares of the picture.
+    middle: Option<f32>,
     new: New,
 }
 
@@ -153,21 +161,22 @@ impl Inputs {
                         self.release();
                     }
                 }
-                (MouseButton::Secondary, down) => self.tilting = down,
-                (MouseButton::Middle, _) => {}
+                (MouseButton::Secondary, down) => self.tilting = down.then(|| self.place()),
+                (MouseButton::Middle, true) => self.middle = Some(0.0),
+                (MouseButton::Middle, false) => {
+                    if self.middle.take().is_some_and(|way| way < CLICKS) {
+                        self.press_key(DeskKey::OtherHand);
+                    }
+                }
             },
             Input::Key { key, down: true } => {
                 self.keys.push(key);
-                self.new.keys.push(key);
-                if key == DeskKey::OtherHand {
-                    // What this hand holds is no longer the button's.
-                    self.down = false;
-                }
+                self.press_key(key);
             }
             Input::Key { key, down: false } => self.keys.retain(|it| *it != key),
             Input::Left => {
                 self.keys.clear();
-                (self.tilting, self.turning) = (false, false);
+                (self.tilting, self.turning, self.middle) = (None, false, None);
                 self.release();
             }
             Input::Axes(axes) => self.axes = axes,
@@ -178,17 +187,28 @@ impl Inputs {
         self.keys.contains(&key)
     }
 
+    /// A key is new in the next frame.
+    fn press_key(&mut self, key: DeskKey) {
+        self.new.keys.push(key);
+        if key == DeskKey::OtherHand {
+            // What this hand holds is no longer the button's.
+            self.down = false;
+        }
+    }
+
     fn point(&mut self, at: [f32; 2]) {
         let before = self.pointer.replace(at).unwrap_or(at);
         let [across, down] = [at[0] - before[0], at[1] - before[1]];
-        if self.turning {
+        if let Some(way) = &mut self.middle {
+            *way += across.hypot(down);
+        }
+        if self.turning || self.middle.is_some_and(|way| way >= CLICKS) {
             // The bench goes with the pointer.
             self.new.turns.yaw -= TURNS * across;
             self.new.turns.rise += RISES * down;
-        } else if self.tilting {
+        } else if self.tilting.is_some() {
             self.new.tilt -= TILTS * down;
-            self.aside = [self.aside[0] - across, self.aside[1] - down];
-        } else {
+        } else if self.middle.is_none() {
             self.new.pointed = true;
         }
     }
@@ -202,10 +222,15 @@ impl Inputs {
         self.new.release |= std::mem::take(&mut self.down);
     }
 
-    /// The place that the hands follow, 0 to 1 from the picture's upper left; in its middle as long as it has not moved.
+    /// The pointer's place; the picture's middle as long as it has not moved.
+    fn place(&self) -> [f32; 2] {
+        self.pointer.unwrap_or([0.5; 2])
+    }
+
+    /// The place that the hands follow, 0 to 1 from the picture's upper left.
     pub fn pointer(&self) -> [f32; 2] {
-        let [x, y] = self.pointer.unwrap_or([0.5; 2]);
-        [x + self.aside[0], y + self.aside[1]].map(|at| at.clamp(0.0, 1.0))
+        let followed = self.tilting.unwrap_or_else(|| self.place());
+        followed.map(|at| at.clamp(0.0, 1.0))
     }
 
     /// Keys held against each other, -1 to 1.
@@ -236,11 +261,8 @@ impl Inputs {
         turns
     }
 
-    /// The hands' controls in a frame that is seen from `view`, while the active hand `holds` something or not.
-    pub fn controls(&mut self, view: &Viewpoint, holds: bool) -> Controls {
-        if !(self.down || holds || self.tilting) {
-            self.aside = [0.0; 2];
-        }
+    /// The hands' controls in a frame that is seen from `view`.
+    pub fn controls(&mut self, view: &Viewpoint) -> Controls {
         let ray = view.ray(self.pointer());
         let [right, away] = view.level();
         let Axes {
@@ -269,9 +291,11 @@ impl Inputs {
             walk,
             raise: raise + self.axis(DeskKey::Lower, DeskKey::Raise),
             tilt: tilt + self.axis(DeskKey::TiltRight, DeskKey::TiltLeft),
+            swirl: self.is_held(DeskKey::Swirl),
             slow: self.is_held(DeskKey::Slow),
             grip: edge(DeskKey::Grip),
             other: edge(DeskKey::OtherHand),
+            gloves: edge(DeskKey::Gloves),
             panel_press: edge(DeskKey::Press),
         }
     }
@@ -292,7 +316,7 @@ mod tests {
 
     /// Pressed, press and release of the next frame.
     fn edges(inputs: &mut Inputs) -> [bool; 3] {
-        let controls = inputs.controls(&Viewpoint::default(), false);
+        let controls = inputs.controls(&Viewpoint::default());
         [controls.pressed, controls.press, controls.release]
     }
 
@@ -311,11 +335,11 @@ mod tests {
         let mut inputs = Inputs::default();
         key(&mut inputs, DeskKey::Right, true);
         assert_eq!(inputs.turns(0.1).yaw, 0.0);
-        let controls = inputs.controls(&Viewpoint::default(), false);
+        let controls = inputs.controls(&Viewpoint::default());
         assert_eq!(controls.walk, [1.0, 0.0]);
         key(&mut inputs, DeskKey::Orbit, true);
         assert!(inputs.turns(0.1).yaw > 0.0);
-        let controls = inputs.controls(&Viewpoint::default(), false);
+        let controls = inputs.controls(&Viewpoint::default());
         assert_eq!(controls.walk, [0.0; 2]);
         // A drag with it turns the view, and takes nothing.
         inputs.take(Input::Pointer([0.5, 0.5]));
@@ -354,17 +378,17 @@ mod tests {
         assert_eq!(inputs.turns(0.1), Turns::default());
     }
 
-    /// A drag with the secondary button tilts, and the hand stays where it was until it holds nothing.
+    /// A drag with the secondary button tilts, and the hand stays where it was until the button goes up.
     #[test]
     fn a_drag_tilts_and_does_not_move() {
         let mut inputs = Inputs::default();
         inputs.take(Input::Pointer([0.5, 0.5]));
         click(&mut inputs, true);
-        inputs.controls(&Viewpoint::default(), true);
+        inputs.controls(&Viewpoint::default());
         let button = MouseButton::Secondary;
         inputs.take(Input::Button { button, down: true });
         inputs.take(Input::Pointer([0.6, 0.25]));
-        let controls = inputs.controls(&Viewpoint::default(), true);
+        let controls = inputs.controls(&Viewpoint::default());
         // A quarter of the height upwards: an eighth of a turn to the left.
         assert!((controls.tilt_drag - 0.25 * PI).abs() < 1e-6);
         assert!(!controls.pointed);
@@ -375,9 +399,49 @@ mod tests {
             down: false,
         });
         inputs.take(Input::Pointer([0.6, 0.35]));
-        assert!(near(inputs.pointer(), [0.5, 0.6]));
-        click(&mut inputs, false);
-        inputs.controls(&Viewpoint::default(), false);
         assert!(near(inputs.pointer(), [0.6, 0.35]));
+        let controls = inputs.controls(&Viewpoint::default());
+        assert!(controls.pointed && controls.tilt_drag == 0.0);
+    }
+
+    /// The wheel's button turns the view where it is dragged, and changes the hand where it is clicked; a hand's tremble is no drag.
+    #[test]
+    fn the_middle_button_turns_the_view_or_changes_the_hand() {
+        let mut inputs = Inputs::default();
+        let middle = |down| Input::Button {
+            button: MouseButton::Middle,
+            down,
+        };
+        inputs.take(Input::Pointer([0.5, 0.5]));
+        inputs.controls(&Viewpoint::default());
+        for (to, drags) in [([0.503, 0.502], false), ([0.3, 0.6], true)] {
+            inputs.take(middle(true));
+            inputs.take(Input::Pointer(to));
+            inputs.take(middle(false));
+            let turns = inputs.turns(0.0);
+            assert_eq!(turns.yaw > 0.0 && turns.rise > 0.0, drags, "{to:?}");
+            let controls = inputs.controls(&Viewpoint::default());
+            assert_eq!(controls.other, !drags, "{to:?}");
+            assert!(!controls.pointed && !controls.press, "{to:?}");
+        }
+        // Left in a drag, the button is up.
+        inputs.take(middle(true));
+        inputs.take(Input::Left);
+        inputs.take(middle(false));
+        assert!(!inputs.controls(&Viewpoint::default()).other);
+    }
+
+    /// Swirling lasts as long as its key is held; gloves are asked for once.
+    #[test]
+    fn keys_swirl_and_ask_for_gloves() {
+        let mut inputs = Inputs::default();
+        key(&mut inputs, DeskKey::Swirl, true);
+        key(&mut inputs, DeskKey::Gloves, true);
+        for asked in [true, false] {
+            let controls = inputs.controls(&Viewpoint::default());
+            assert_eq!((controls.swirl, controls.gloves), (true, asked));
+        }
+        key(&mut inputs, DeskKey::Swirl, false);
+        assert!(!inputs.controls(&Viewpoint::default()).swirl);
     }
 }

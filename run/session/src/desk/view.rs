@@ -177,7 +177,7 @@ impl Viewpoint {
         self.at = self.at.lerp(at, share);
     }
 
-    /// stage_from_view: the head, which looks along -Z.
+    /// stage_from_eye: the eye of the picture, which looks along -Z.
     pub fn pose(&self) -> Pose {
         let eye = self.shown.eye();
         let ahead = self.at - eye;

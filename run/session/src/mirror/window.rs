@@ -14,7 +14,7 @@ use std::time::Duration;
 use softbuffer::{Context, Surface};
 use vitriol_run::{Blame, Failure};
 use winit::application::ApplicationHandler;
-use winit::dpi::PhysicalSize;
+use winit::dpi::LogicalSize;
 use winit::error::EventLoopError;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopProxy};
@@ -28,7 +28,7 @@ use crate::decision::Decision;
 use crate::desk::input::Input;
 use crate::menu;
 
-/// Longest side of the window when it opens, pixels.
+/// Longest side of a mirror when it opens, pixels of a screen of the usual density.
 const OPENS_AT: u32 = 800;
 /// Display time between two pictures of a mirror, ns: 30 a second.
 const EVERY: i64 = 1_000_000_000 / 30;
@@ -60,7 +60,7 @@ pub struct Window {
 
 /// How a desk's window opens.
 pub(crate) struct Opening {
-    /// Width and height, pixels.
+    /// Width and height, pixels of a screen of the usual density.
     pub size: [u32; 2],
     /// Whether it fills the screen.
     pub full_screen: bool,
@@ -68,12 +68,12 @@ pub(crate) struct Opening {
     pub input: Sender<Input>,
 }
 
-/// The display that a window is on.
+/// The displays that a window can be on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Display {
-    /// Width and height, pixels; `None` where it is unknown.
-    pub size: Option<[u32; 2]>,
-    /// Pictures in a thousand seconds; `None` where that is unknown.
+    /// Width of the widest one and height of the highest one, pixels, and those of the window at least.
+    pub largest: [u32; 2],
+    /// Pictures in a thousand seconds, of the one that it opens on; `None` where that is unknown.
     pub rate_mhz: Option<u32>,
 }
 
@@ -117,7 +117,7 @@ impl Window {
         Self::show(asked, (EVERY, LONGEST))
     }
 
-    /// A window that takes mouse and keyboard, and the display that it is on. It takes pictures of any size, as many as come.
+    /// A window that takes mouse and keyboard, and the displays that it can be on. It takes pictures of any size, as many as come.
     ///
     /// # Errors
     /// As for [`Window::open`].
@@ -152,7 +152,7 @@ impl Window {
             _end: end,
         };
         let thread = std::thread::Builder::new()
-            .name("mirror".into())
+            .name("window".into())
             .spawn(move || {
                 let _leaving = leaving;
                 let events = match event_loop() {
@@ -172,7 +172,7 @@ impl Window {
                     shown: None,
                 };
                 if let Err(error) = events.run_app(&mut face) {
-                    tracing::warn!("the mirror window is gone: {error}");
+                    tracing::warn!("the window is gone: {error}");
                 }
             });
         let thread = thread.other()?;
@@ -245,7 +245,7 @@ type Pixels = Surface<Rc<Frame>, Rc<Frame>>;
 
 /// What a window is to be.
 struct Asked {
-    /// Its size, which it opens with.
+    /// Its size; before it is open, the size that it is to open with.
     extent: Arc<Extent>,
     decisions: Sender<Decision>,
     /// Whether it opens over all of the screen.
@@ -257,7 +257,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// A mirror of that size, pixels.
+    /// A mirror that opens with that size, pixels of a screen of the usual density.
     fn new(size: [u32; 2], decisions: Sender<Decision>) -> Self {
         let extent = Arc::new(Extent::default());
         extent.set(size);
@@ -288,8 +288,12 @@ impl Face {
         let [width, height] = asked.extent.get().unwrap_or([OPENS_AT; 2]);
         let whole = asked.full_screen.then_some(Fullscreen::Borderless(None));
         let wanted = Frame::default_attributes()
-            .with_title("Vitriol")
-            .with_inner_size(PhysicalSize::new(width, height))
+            .with_title(match asked.listener {
+                // It has its picture when bench and shaders are ready, which may take minutes.
+                Some(_) => "Vitriol: being made ready …",
+                None => "Vitriol",
+            })
+            .with_inner_size(LogicalSize::new(width, height))
             .with_fullscreen(whole);
         let frame = Rc::new(events.create_window(wanted)?);
         let context = Context::new(Rc::clone(&frame))?;
@@ -299,10 +303,15 @@ impl Face {
             let monitor = frame.current_monitor().or_else(|| frame.primary_monitor());
             // On Wayland a window is on no monitor before its first picture.
             let monitor = monitor.or_else(|| events.available_monitors().next());
-            let size = monitor.as_ref().map(|monitor| monitor.size().into());
             let rate_mhz = monitor.and_then(|monitor| monitor.refresh_rate_millihertz());
+            let mut largest: [u32; 2] = frame.inner_size().into();
+            // It may be moved to any of them.
+            for monitor in frame.available_monitors() {
+                let [width, height]: [u32; 2] = monitor.size().into();
+                largest = [largest[0].max(width), largest[1].max(height)];
+            }
             // Where nobody waits any more, the window is closed soon.
-            let _ = opened.send(Display { size, rate_mhz });
+            let _ = opened.send(Display { largest, rate_mhz });
         }
         self.frame = Some((frame, surface));
         Ok(())
@@ -364,7 +373,7 @@ impl Face {
         Ok(())
     }
 
-    fn hear(&mut self, what: Say) -> WindowResult {
+    fn receive(&mut self, what: Say) -> WindowResult {
         let Some((frame, _)) = &self.frame else {
             return Ok(());
         };
@@ -382,7 +391,7 @@ impl Face {
     /// Closes the window where it cannot go on. The session goes on, but at a desk.
     fn settle(&mut self, events: &ActiveEventLoop, outcome: WindowResult) {
         if let Err(error) = outcome {
-            tracing::warn!("the mirror window is closed: {error}");
+            tracing::warn!("the window is closed: {error}");
             events.exit();
         }
     }
@@ -400,8 +409,8 @@ impl ApplicationHandler<Say> for Face {
         if let Say::End = what {
             events.exit();
         } else {
-            let heard = self.hear(what);
-            self.settle(events, heard);
+            let received = self.receive(what);
+            self.settle(events, received);
         }
     }
 

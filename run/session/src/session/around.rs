@@ -4,13 +4,43 @@ use glam::Vec3;
 use vitriol_render::{Bone, Finish, MOST_BONES};
 use vitriol_sim::scene::{Flask, Tool, ToolKind};
 use vitriol_sim::world::World;
-use vitriol_xr::{Around, Line, Moves, Pose, Side, Thing};
+use vitriol_xr::{Around, Kind, Line, Moves, Pose, PoseFrame, Side, Thing};
 
+use super::Session;
+use crate::clock::MOST_STEPS;
 use crate::panel;
 use crate::placement::SCENE_TABLE;
 
+impl Session {
+    /// The bench as it is before the next frame.
+    pub(super) fn bench_around(&self) -> Around {
+        let world = &self.run.world;
+        let pace = match self.instructor.holds_time() {
+            true => 0.0,
+            false => self.steps.clock.rate,
+        };
+        let longest = f64::from(MOST_STEPS) * world.scene().scale.frame_time;
+        Around {
+            scene: self.scenes,
+            pace: pace as f32,
+            longest: longest as f32,
+            ..of(world, &self.placement.stage_from_scene())
+        }
+    }
+
+    /// Hands of the last frame in the scene's stage, and its head, or the eye of a screen's picture: that goes round the bench while its
+    /// user's head stays.
+    pub(super) fn viewed(&self) -> Option<PoseFrame> {
+        let seen = self.placement.seen()?;
+        Some(PoseFrame {
+            stage_from_view: self.eye.unwrap_or(seen.stage_from_view),
+            ..seen
+        })
+    }
+}
+
 /// The bodies of `world` as they are now, where the scene is `placed` in the headset's stage.
-pub(super) fn of(world: &World, placed: &Pose) -> Around {
+fn of(world: &World, placed: &Pose) -> Around {
     let scene = world.scene();
     let scale = scene.scale.length_scale;
     let flasks = scene.flasks.iter().zip(world.poses()).enumerate();
@@ -18,10 +48,10 @@ pub(super) fn of(world: &World, placed: &Pose) -> Around {
         let grips = !of.fixed && !world.is_broken(index);
         flask(of, scale, stage_from(placed, scale, pose), grips)
     });
-    let worn = world.worn().goggles == Some(true);
+    let worn = world.worn();
     let tools = scene.tools.iter().zip(world.tools());
     let tools = tools.map(|(of, pose)| {
-        let grips = !(worn && of.kind == ToolKind::Goggles);
+        let grips = !(worn.goggles == Some(true) && of.kind == ToolKind::Goggles);
         tool(of, stage_from(placed, scale, pose), grips)
     });
     let count = scene.flasks.len();
@@ -36,7 +66,9 @@ pub(super) fn of(world: &World, placed: &Pose) -> Around {
         table: placed.transform_point(top * Vec3::Y).y,
         things: flasks.chain(tools).collect(),
         holds: Side::BOTH.map(held_by),
+        gloves: worn.gloves.unwrap_or_default(),
         panel: (placed.compose(&panel::scene_from_panel()), panel::SIZE),
+        ..Around::default()
     }
 }
 
@@ -53,7 +85,7 @@ fn flask(flask: &Flask, scale: f64, pose: Pose, grips: bool) -> Thing {
         radius: (scale * profile.outer_radius()) as f32,
         rim: (scale * rim) as f32,
         height: (scale * profile.rim_height()) as f32,
-        flask: true,
+        kind: Kind::Flask,
         grips,
         moves: Moves::Freely,
     }
@@ -66,7 +98,13 @@ fn tool(tool: &Tool, pose: Pose, grips: bool) -> Thing {
         radius,
         rim: radius,
         height,
-        flask: false,
+        kind: match tool.kind {
+            ToolKind::Rod | ToolKind::Thermometer => Kind::Rod,
+            ToolKind::Cloth => Kind::Cloth,
+            ToolKind::Goggles => Kind::Goggles,
+            ToolKind::Gloves => Kind::Gloves,
+            ToolKind::Sash => Kind::Sash,
+        },
         grips,
         moves: match tool.kind {
             ToolKind::Sash => Moves::UpAndDown,
@@ -126,6 +164,27 @@ mod tests {
             let at = scale as f32 * of.stage_from_flask.position;
             let there = placed.orientation * at + placed.position;
             assert!((thing.pose.position - there).length() < 1e-5);
+        }
+    }
+
+    /// What is dipped is known as that, and a sash alone stays on its rails.
+    #[test]
+    fn tools_are_of_their_kind() {
+        let things = ToolKind::ALL.map(|kind| {
+            let of = Tool {
+                kind,
+                stage_from_tool: vitriol_sim::pose::Pose::IDENTITY,
+                worn: false,
+            };
+            (kind, tool(&of, Pose::IDENTITY, true))
+        });
+        for (kind, thing) in things {
+            assert_eq!(thing.kind == Kind::Rod, kind.is_dipped(), "{kind:?}");
+            let slides = thing.moves == Moves::UpAndDown;
+            assert_eq!(slides, thing.kind == Kind::Sash, "{kind:?}");
+            let worn = matches!(thing.kind, Kind::Goggles | Kind::Gloves);
+            assert_eq!(worn, kind.is_worn(), "{kind:?}");
+            assert!(!thing.is_flask(), "{kind:?}");
         }
     }
 

@@ -14,7 +14,7 @@ const AGAIN: Duration = Duration::from_secs(5);
 
 /// Collects decisions until the next frame does them.
 pub(super) struct Choices {
-    /// Decisions of the terminal's and the mirror window's keys.
+    /// Decisions of the terminal's and the window's keys.
     elsewhere: Receiver<Decision>,
     buttons: Buttons,
     /// Decided and not done yet.
@@ -45,6 +45,13 @@ impl Choices {
                 decision => self.wanted.push(decision),
             }
         }
+        ends
+    }
+
+    /// Drops the decisions of keys until `now`, but for the end; returns whether that was asked for.
+    pub fn forget(&mut self, now: Instant) -> bool {
+        let ends = self.hear(now);
+        self.wanted.clear();
         ends
     }
 
@@ -151,6 +158,23 @@ mod tests {
         // Too late.
         assert!(!press(6));
         assert!(press(8));
+    }
+
+    /// Of what is typed while a session is made ready the end alone counts.
+    #[test]
+    fn what_is_forgotten_is_not_done() {
+        let now = Instant::now();
+        for (asks, ends) in [(0, false), (1, false), (2, true)] {
+            let (keys, elsewhere) = channel();
+            let mut choices = Choices::new(elsewhere);
+            keys.send(scene("other")).unwrap();
+            for _ in 0..asks {
+                keys.send(Decision::AskEnd).unwrap();
+            }
+            assert_eq!(choices.forget(now), ends, "{asks}");
+            let hands = [Hand::default(), Hand::default()];
+            assert_eq!(choices.take(&hands, 0), []);
+        }
     }
 
     #[test]

@@ -123,8 +123,7 @@ impl Session {
             headset.request_rate(rate).map_err(blame)?;
         }
         // 11. Where the bodies are, for who points at them; and what the lenses hide.
-        let placed = self.placement.stage_from_scene();
-        headset.around(around::of(&self.run.world, &placed));
+        headset.around(self.bench_around());
         self.benches.take_mask(headset, &no_frame)
     }
 
@@ -212,6 +211,7 @@ impl Session {
         (self.readings).begin(self.run.world.scene(), self.summary.texts());
         self.sounds.begin();
         self.instructor.begin(self.run.events().len());
+        self.scenes += 1;
         self.checkpoints.forget();
         self.spills.clean();
         self.hints.begin();
@@ -251,14 +251,15 @@ impl Session {
         Ok(())
     }
 
-    /// Brings panel and window title up to date, and lets the hands that hold nothing point at the panel.
+    /// Brings panel and window title up to date, and lets the hands that hold nothing point at the panel. A pointer points whatever its
+    /// hands hold: their aim is its ray.
     fn show_panel(&mut self) {
         let world = &self.run.world;
         let seen = self.placement.seen();
         let pointing = |side: Side| -> Option<&Hand> {
             let hand = seen.as_ref()?.hand(side);
             let holds = world.holds(side as usize) || self.handles.is_held_by(side);
-            (hand.active && hand.valid && !holds).then_some(hand)
+            (hand.active && hand.valid && (self.pointer || !holds)).then_some(hand)
         };
         let hands = Side::BOTH.map(pointing);
         let info = self.info();
@@ -271,7 +272,7 @@ impl Session {
 
     /// Shows a first user what to do next.
     fn hint(&mut self) {
-        let (seen, time) = (self.placement.seen(), 1e-9 * self.shown_at() as f64);
+        let (seen, time) = (self.viewed(), 1e-9 * self.shown_at() as f64);
         let bare = self.joints.each_ref().map(Option::is_some);
         let world = &self.run.world;
         self.hints.update(world, seen.as_ref(), bare, time);
@@ -334,6 +335,8 @@ impl Session {
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
         let views = headset.locate_views().map_err(blame)?;
+        let eye_of_screen = (headset.eyes() == 1).then_some(views[0].stage_from_eye);
+        self.eye = eye_of_screen.map(|stage_from_eye| placed.inverse().compose(&stage_from_eye));
         let inset = headset.inset().map(|inset| Inset {
             extent: scaled(inset.extent, &setting),
             ..inset
@@ -443,7 +446,7 @@ impl Session {
     fn hear(&mut self) {
         let time = 1e-9 * self.shown_at() as f64;
         self.sounds.add(self.run.sounds(), time);
-        let seen = self.placement.seen();
+        let seen = self.viewed();
         self.sounds
             .hear(seen.as_ref().map(|it| &it.stage_from_view));
     }

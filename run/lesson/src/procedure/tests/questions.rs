@@ -171,7 +171,7 @@ fn a_question_that_is_spoiled_is_refused() {
         (
             "\"Heat.\"",
             "\"\"",
-            &["texts.en.step.explain.answers[1]: empty"],
+            &["texts.en.step.explain.answers 2: empty"],
         ),
         (
             "\"free\"",
@@ -189,5 +189,5 @@ fn a_question_that_is_spoiled_is_refused() {
     }
     let long = good.replace("\"Heat.\"", &format!("\"{}\"", "x".repeat(51)));
     let error = Lesson::parse(&long, "bad.toml").unwrap_err().to_string();
-    assert!(error.contains("answers[1]: 51 characters"), "{error}");
+    assert!(error.contains("answers 2: 51 characters"), "{error}");
 }

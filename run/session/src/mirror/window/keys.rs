@@ -48,6 +48,8 @@ pub fn meaning(key: &Key) -> Option<Meaning> {
                 ' ' => DeskKey::Grip,
                 'q' => DeskKey::TiltLeft,
                 'e' => DeskKey::TiltRight,
+                'w' => DeskKey::Swirl,
+                'g' => DeskKey::Gloves,
                 // What is on the key of a plus and a minus in other layouts, with Shift or without it.
                 '+' | '=' => DeskKey::ZoomIn,
                 '-' | '_' => DeskKey::ZoomOut,
@@ -176,6 +178,8 @@ mod tests {
         for (text, key) in [
             ("q", DeskKey::TiltLeft),
             ("E", DeskKey::TiltRight),
+            ("W", DeskKey::Swirl),
+            ("g", DeskKey::Gloves),
             ("+", DeskKey::ZoomIn),
             ("_", DeskKey::ZoomOut),
             ("v", DeskKey::SideView),
