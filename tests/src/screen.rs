@@ -260,6 +260,14 @@ impl Screen {
         self.checked(focus);
     }
 
+    /// Takes the keyboard from every window.
+    pub fn unfocus(&self) {
+        let focus =
+            self.connection
+                .set_input_focus(InputFocus::PARENT, self.root, x11rb::CURRENT_TIME);
+        self.checked(focus);
+    }
+
     /// Presses and releases the key of a letter or a digit, as a keyboard would, with the focus on
     /// the window.
     pub fn press(&self, window: Window, key: char) {

@@ -112,6 +112,19 @@ impl Watcher {
         }
     }
 
+    /// Waits for its student's next state, as a page gets it.
+    ///
+    /// # Errors
+    /// [`NotServed`], after half a minute of silence too.
+    pub fn hear_state(&mut self) -> Result<Value, NotServed> {
+        loop {
+            let mut said = self.hear_text()?;
+            if said["say"] == "state" {
+                return Ok(said["state"].take());
+            }
+        }
+    }
+
     /// Gives an order to its student; [`Heard::Ordered`] has its number.
     ///
     /// # Errors

@@ -259,7 +259,8 @@ mod tests {
                 assert_eq!(steps[0].1, all[0].1);
                 // With a hint there may be less room: what is to be done is there.
                 let hints = lesson.texts(language).step.values();
-                let hint = hints.map(|step| lines(&step.hint, language)).max();
+                let hints = hints.flat_map(|step| step.hint_desk.iter().chain([&step.hint]));
+                let hint = hints.map(|hint| lines(hint, language)).max();
                 let (steps, _) = fitting(all, LINES - hint.unwrap(), language);
                 assert_eq!(steps[0].0, Mark::Open, "{name} {language}");
             }

@@ -227,9 +227,12 @@ impl Session {
     /// [`Failure::Input`] for a scene that is not there, or a recording that exists already; an error of the device.
     pub fn new(
         headset: &dyn Headset,
-        options: Options,
+        mut options: Options,
         decisions: Receiver<Decision>,
     ) -> Result<Self, Failure> {
+        if options.pointer {
+            options.course = options.course.map(Course::at_desk);
+        }
         let gpu = headset.gpu();
         // Without a governor nothing gives way. On a screen one looks anywhere.
         let even = !options.governed || headset.eyes() == 1;

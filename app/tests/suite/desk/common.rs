@@ -129,6 +129,22 @@ impl User {
         self.point(at);
     }
 
+    /// Tilts what is held by dragging the pointer down by so many pixels with the secondary button, or up where they are negative. The
+    /// pointer is then where it was, and so is the hand.
+    pub fn tilts(&mut self, pixels: i32) {
+        let [x, y] = self.pointer;
+        self.button(Button::Secondary, true);
+        self.point([x, y + pixels]);
+        self.button(Button::Secondary, false);
+        self.point([x, y]);
+    }
+
+    /// Presses and releases the main button.
+    pub fn click(&mut self) {
+        self.button(Button::Main, true);
+        self.button(Button::Main, false);
+    }
+
     /// Takes hold of what the hand is at, or lets it go, as one does by mouse or by keys.
     pub fn grip(&mut self, closes: bool) {
         match self.by {
@@ -366,17 +382,28 @@ pub fn at_screen(folder: &Path) -> Options {
 }
 
 /// A session in a window, to the end of what its user does.
-pub fn session(gpu: &Gpu, (screen, by): (Screen, By), options: Options, script: Script) -> Sat {
+pub fn session(gpu: &Gpu, seat: (Screen, By), options: Options, script: Script) -> Sat {
+    session_at(gpu, seat, options, script, (false, |desk| desk))
+}
+
+/// The same where a click takes and another one puts down, if it `toggles`, at a desk with a change.
+pub fn session_at(
+    gpu: &Gpu,
+    (screen, by): (Screen, By),
+    options: Options,
+    script: Script,
+    (toggles, change): (bool, impl FnOnce(Desk) -> Desk),
+) -> Sat {
     let file = options.record.clone().unwrap();
     let (decisions, taken) = channel();
     let spec = DeskSpec {
         size: SIZE,
         full_screen: false,
-        toggles: false,
+        toggles,
     };
     let (desk, window) = desk::open(gpu, spec, decisions).unwrap();
     let mut used = Used {
-        desk,
+        desk: change(desk),
         user: User::new(screen, by),
         steps: script.0,
         at: 0,
@@ -422,6 +449,13 @@ pub fn takes(script: Script) -> Script {
     })
 }
 
+/// Whether it stands on the table, and no hand holds it.
+pub fn stands(seen: &Seen<'_>, flask: usize) -> bool {
+    // Upright, its foot on the table: to 3 mm and 2°, by which a contact of the bodies may differ.
+    let down = seen.foot(flask).y - seen.around.table < 3e-3;
+    seen.holder(flask).is_none() && down && seen.tilt(flask) < 2.0
+}
+
 /// Lets the flask go, and waits until it stands.
 pub fn puts_down(script: Script) -> Script {
     script
@@ -429,9 +463,7 @@ pub fn puts_down(script: Script) -> Script {
             if frame == 0 {
                 user.grip(false);
             }
-            // Upright, its foot on the table: to 3 mm and 2°, by which a contact of the bodies may differ.
-            let down = seen.foot(SOURCE).y - seen.around.table < 3e-3;
-            seen.holder(SOURCE).is_none() && down && seen.tilt(SOURCE) < 2.0
+            stands(seen, SOURCE)
         })
         // A lesson looks for half a second in which it stands.
         .then("looks at it", |_, seen, _| seen.lasts > 0.8)

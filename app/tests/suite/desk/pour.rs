@@ -24,25 +24,31 @@ const OVER: f32 = 0.015;
 const STILL_OVER: f32 = 0.02;
 /// Tilt (degrees) at which nothing flows yet, and beyond which all flows out. 150 mL stand 44 mm high in a beaker 66 mm wide and 90 mm
 /// high: they reach the rim at 54°.
-const NOT_YET: f32 = 40.0;
+pub const NOT_YET: f32 = 40.0;
 const ALL_OUT: f32 = 95.0;
+/// Tilt (degrees) from which on nothing flows any more.
+pub const UPRIGHT: f32 = 15.0;
 
 /// Brings the lip over the target's axis; whether it is near enough to it for the flask to be tilted further.
-fn aims(user: &mut User, seen: &Seen<'_>) -> bool {
+pub fn aims(user: &mut User, seen: &Seen<'_>) -> bool {
     let (lip, target) = (seen.lip(SOURCE), seen.foot(TARGET));
     user.brings(seen, (lip, target), OVER, false);
     level(target - lip).length() < STILL_OVER
 }
 
+/// From the flask in the hand to the place from which it is poured.
+pub fn carries(script: Script) -> Script {
+    script.then("carries it to the other one", |user, seen, frame| {
+        // Beside it, with some centimetres between them: the lip comes over it as the flask tilts.
+        let to = seen.foot(TARGET) - 0.10 * Vec3::X;
+        let there = user.brings(seen, (seen.foot(SOURCE), to), NEAR, frame == 0);
+        there && seen.foot(SOURCE).y > seen.around.table + 0.01
+    })
+}
+
 /// From the flask in the hand to the pour, which runs for so long (s of the simulation).
 fn pours(script: Script, runs: f64) -> Script {
-    script
-        .then("carries it to the other one", |user, seen, frame| {
-            // Beside it, with some centimetres between them: the lip comes over it as the flask tilts.
-            let to = seen.foot(TARGET) - 0.10 * Vec3::X;
-            let there = user.brings(seen, (seen.foot(SOURCE), to), NEAR, frame == 0);
-            there && seen.foot(SOURCE).y > seen.around.table + 0.01
-        })
+    carries(script)
         .then("tilts it", |user, seen, frame| {
             if frame == 0 {
                 user.keys_up();
@@ -73,16 +79,20 @@ fn pours(script: Script, runs: f64) -> Script {
 
 /// From the pour to the flask where it stood.
 fn brings_back(script: Script) -> Script {
+    carries_back(script.then("tilts it back", |user, seen, frame| {
+        if frame == 0 {
+            user.keys_up();
+        }
+        // What is left is turned upright when it is put down.
+        let upright = seen.tilt(SOURCE) <= UPRIGHT;
+        user.hold(TILT_LEFT, !upright);
+        upright
+    }))
+}
+
+/// From an upright flask in the hand to one where it stood.
+pub fn carries_back(script: Script) -> Script {
     let script = script
-        .then("tilts it back", |user, seen, frame| {
-            if frame == 0 {
-                user.keys_up();
-            }
-            // What is left is turned upright when it is put down.
-            let upright = seen.tilt(SOURCE) <= 15.0;
-            user.hold(TILT_LEFT, !upright);
-            upright
-        })
         .then("carries it back", |user, seen, frame| {
             let home = user.home.unwrap();
             user.brings(seen, (seen.foot(SOURCE), home), NEAR, frame == 0)
@@ -128,14 +138,14 @@ fn walks(script: Script) -> Script {
 }
 
 /// Volume of what events say was poured, mL.
-fn poured_ml(sat: &Sat) -> f64 {
+pub fn poured_ml(sat: &Sat) -> f64 {
     let pours = sat.outcome.attempts.iter().flat_map(|it| &it.pours);
     let wanted = pours.filter(|it| it.from == "source" && it.into.as_deref() == Some("target"));
     wanted.map(|it| 1e6 * it.volume_m3).sum()
 }
 
 /// A whole pour: some of the water is in the other flask, the first one stands where it stood, and a replay comes to the same bits.
-fn was_poured(gpu: &Gpu, sat: Sat) {
+pub fn was_poured(gpu: &Gpu, sat: Sat) {
     assert_eq!(sat.ended_in, None);
     let measured = sat.outcome.world.measure().unwrap();
     assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));

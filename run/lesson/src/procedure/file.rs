@@ -207,6 +207,13 @@ impl Lesson {
         self.others.get(&language).unwrap_or(&self.first.1)
     }
 
+    /// This lesson for a user whose hands are moved by mouse and keyboard: its hints say what to do with these.
+    pub fn at_desk(mut self) -> Self {
+        self.first.1.hint_at_desk();
+        self.others.values_mut().for_each(LessonTexts::hint_at_desk);
+        self
+    }
+
     /// The languages of its texts; the first stands in for those that it does not have.
     pub fn languages(&self) -> Vec<Language> {
         let others = self.others.keys().copied();

@@ -108,6 +108,7 @@ fn texts_of(source: &mut Source<'_>, field: &str) -> LessonTexts {
     let none = StepTexts {
         text: String::new(),
         hint: String::new(),
+        hint_desk: None,
         answers: Vec::new(),
     };
     let steps = source.names(&named("step")).into_iter();

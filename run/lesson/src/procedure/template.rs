@@ -117,6 +117,7 @@ const TEXTS: &str = "\
 # What students read. Each text is one line; `vitriol lesson FILE` says if one is too long for the panel.
 # title, summary: the lesson in a few words, and what it is about
 # step.ID.text: what is to be done, or the question; step.ID.hint: how it is done
+# step.ID.hint_desk: how it is done with mouse and keyboard, where that is said otherwise
 # step.ID.answers: the answers to the question, in their order
 # rule.ID: what has to hold
 ";

@@ -41,12 +41,24 @@ pub struct StepTexts {
     pub text: String,
     /// How to do it, for a student who does not get on.
     pub hint: String,
+    /// The same where mouse and keyboard move the hands; `None` where the hint fits both.
+    #[serde(default)]
+    pub hint_desk: Option<String>,
     /// The answers to the question, in the order of their numbers; none where nothing is asked.
     #[serde(default)]
     pub answers: Vec<String>,
 }
 
 impl LessonTexts {
+    /// Puts the hints for mouse and keyboard in place of those for hands, where a step has them.
+    pub(super) fn hint_at_desk(&mut self) {
+        for step in self.step.values_mut() {
+            if let Some(hint) = step.hint_desk.take() {
+                step.hint = hint;
+            }
+        }
+    }
+
     /// Checks that each of these steps, with so many answers, and rules has texts, that no other has, and that each text fits the panel.
     pub(super) fn check(
         &self,
@@ -70,6 +82,9 @@ impl LessonTexts {
         for (id, step) in &self.step {
             fits(&format!("step.{id}.text"), &step.text, STEP);
             fits(&format!("step.{id}.hint"), &step.hint, STEP);
+            if let Some(hint) = &step.hint_desk {
+                fits(&format!("step.{id}.hint_desk"), hint, STEP);
+            }
             for (nth, answer) in step.answers.iter().enumerate() {
                 fits(&format!("step.{id}.answers[{nth}]"), answer, ANSWER);
             }

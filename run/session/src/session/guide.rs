@@ -23,6 +23,16 @@ pub struct Course {
     pub language: Language,
 }
 
+impl Course {
+    /// The same for a user whose hands are moved by mouse and keyboard.
+    pub(super) fn at_desk(self) -> Self {
+        Self {
+            lesson: self.lesson.at_desk(),
+            ..self
+        }
+    }
+}
+
 /// What panel and console show of a lesson that the run judges. Without a lesson it shows nothing.
 pub(super) struct Guide {
     course: Option<Course>,

@@ -173,12 +173,46 @@ fn each_text_fits_the_panel() {
                     long(&step.text) <= 140 && long(&step.hint) <= 140,
                     "{step:?}"
                 );
+                let desk = step.hint_desk.iter();
+                assert!(desk.map(|it| long(it)).all(|long| long <= 140), "{step:?}");
                 let answers = step.answers.iter();
                 assert!(answers.map(|it| long(it)).all(|long| long <= 50));
             }
             assert!(texts.rule.values().all(|it| long(it) <= 140));
         }
     }
+}
+
+/// With mouse and keyboard no hint asks for a gesture of a hand, and what is judged is the same lesson. A hint without a variant stays.
+#[test]
+fn hints_at_a_desk_ask_for_no_gesture() {
+    let gestures = [
+        "open the hand",
+        "lose the hand",
+        "lose a hand",
+        "lose the other hand",
+        "each hand, and close it",
+        "your eyes",
+        "your hands",
+    ];
+    let asks = |hint: &str| gestures.iter().any(|it| hint.contains(it));
+    let mut changed = 0;
+    for name in Lesson::builtin_names() {
+        let lesson = Lesson::builtin(name).unwrap();
+        let desk = lesson.clone().at_desk();
+        assert_eq!(desk.hash(), lesson.hash());
+        for (id, step) in &desk.texts(Language::En).step {
+            assert!(!asks(&step.hint), "{name} {id}: {}", step.hint);
+            let worn = &lesson.texts(Language::En).step[id].hint;
+            changed += usize::from(asks(worn));
+            let differs = Language::ALL.map(|language| {
+                let hint = |of: &Lesson| of.texts(language).step[id].hint.clone();
+                hint(&desk) != hint(&lesson)
+            });
+            assert!(differs.iter().all(|it| *it == differs[0]), "{name} {id}");
+        }
+    }
+    assert!(changed > 0);
 }
 
 /// A text names the numbers that its file judges by.
