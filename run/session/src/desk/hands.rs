@@ -4,6 +4,7 @@
 //! device is used here.
 
 mod controls;
+mod gloves;
 mod hand;
 mod held;
 mod lines;
@@ -17,9 +18,11 @@ mod tests;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use vitriol_xr::{Around, Hand, Line, Pose, Side};
+use vitriol_xr::{Around, Hand, Kind, Line, Pose, Side};
 
 pub use controls::Controls;
+use controls::{KEYS, REACH, SLOW};
+use gloves::{Pull, other};
 use hand::{Mover, State, Taking};
 use held::Drag;
 use obstacles::{hover, level};
@@ -38,11 +41,6 @@ const REST: [f32; 3] = [0.22, 0.25, 0.18];
 const REST_OVER: f32 = 0.2;
 const REST_CLEAR: f32 = 0.1;
 const HOVERS: f32 = 0.06;
-/// How far from the user the pointer's place on the bench is at most, m.
-const REACH: f32 = 0.85;
-/// Speed of keys over the bench, m/s, and the share of it that is slow.
-const KEYS: f32 = 0.25;
-const SLOW: f32 = 0.25;
 
 /// Two hands that a pointer moves, one at a time.
 pub struct Hands {
@@ -53,16 +51,22 @@ pub struct Hands {
     /// The eyes, and right and ahead, as the session began.
     head: Vec3,
     ahead: [Vec3; 2],
-    /// The last frame's controls.
+    /// The bench that the hands are at, as `Around` counts them.
+    scene: u64,
+    /// The last frame's controls, and what came since then while no time passed.
     controls: Controls,
+    pending: Option<Controls>,
     /// The place on the bench that is pointed at, and the thing that a press would take.
     spot: Vec3,
     picked: Option<usize>,
     press: Option<Press>,
     /// Whether the pointer was used last, and not keys.
     points: bool,
-    /// Whether the pointer is on the panel.
+    /// Whether the pointer is on the panel, and on a glove that a press would pull off.
     on_panel: bool,
+    on_glove: bool,
+    /// The mouse tilted, so that the place that is pointed at may have leapt.
+    tilted: bool,
     lines: Vec<Line>,
     profile: Arc<str>,
 }
@@ -90,17 +94,21 @@ impl Hands {
             toggles: false,
             head: eyes,
             ahead,
+            scene: 0,
             controls: Controls {
                 ray: (eyes, away),
                 right,
                 away,
                 ..Controls::default()
             },
+            pending: None,
             spot: (eyes + 0.4 * away).with_y(table),
             picked: None,
             press: None,
             points: false,
             on_panel: false,
+            on_glove: false,
+            tilted: false,
             lines: Vec::new(),
             profile: PROFILE.into(),
         }
@@ -113,6 +121,7 @@ impl Hands {
     }
 
     /// The hand that pointer and keys move.
+    #[cfg(test)]
     pub fn active(&self) -> Side {
         self.active
     }
@@ -122,30 +131,37 @@ impl Hands {
         self.lines.clone()
     }
 
-    /// Advances by `dt` seconds and returns both hands for the frame.
+    /// Advances by `dt` simulated seconds and returns both hands for the frame. Where that is 0, what is asked for waits.
     pub fn advance(&mut self, controls: &Controls, around: &Around, dt: f32) -> [Hand; 2] {
-        let controls = controls.sound(&self.controls);
-        self.controls = controls.clone();
+        if around.scene != self.scene {
+            self.begin(around);
+        }
+        let mut controls = controls.sound(&self.controls);
+        if let Some(earlier) = self.pending.take() {
+            controls = controls.after(&earlier);
+        }
         let dt = if dt.is_finite() {
             dt.clamp(0.0, LONGEST)
         } else {
             0.0
         };
+        if dt == 0.0 {
+            self.pending = Some(controls);
+            return self.frame();
+        }
+        self.controls = controls.clone();
         if controls.other {
             self.movers[self.active as usize].leave();
-            self.active = match self.active {
-                Side::Left => Side::Right,
-                Side::Right => Side::Left,
-            };
-            self.picked = None;
+            self.active = other(self.active);
         }
-        let (eye, user) = (controls.ray.0, level(self.head));
+        let user = level(self.head);
         for mover in &mut self.movers {
-            mover.hear(around, eye, &controls, user);
+            mover.take_in(around, self.head, controls.away);
         }
         self.point(&controls, around, dt);
         self.click(&controls, around, dt);
         self.decide(&controls, around);
+        self.pull(around);
         let steps = (dt / STEP).ceil().max(1.0);
         let view = [controls.right, controls.away];
         for _ in 0..steps as usize {
@@ -160,6 +176,25 @@ impl Hands {
         }
         self.draw(around);
         self.frame()
+    }
+
+    /// Another bench: both hands are empty and at rest.
+    fn begin(&mut self, around: &Around) {
+        self.scene = around.scene;
+        self.movers = Side::BOTH.map(|side| {
+            let upright = orientation(side, Vec3::Y, outwards(side, self.ahead[0]));
+            Mover::new(side, Pose::new(self.rests(side, around), upright))
+        });
+        (self.picked, self.press, self.pending) = (None, None, None);
+        (self.on_panel, self.on_glove, self.tilted) = (false, false, false);
+        self.lines.clear();
+    }
+
+    /// Where a hand rests, clear of all glass.
+    fn rests(&self, side: Side, around: &Around) -> Vec3 {
+        let rest = rest(side, self.head, self.ahead, around.table);
+        let over = hover(around, level(rest), REST_CLEAR, REST_CLEAR);
+        rest.with_y(rest.y.max(over))
     }
 
     /// The hand that can press something on the panel: one that holds nothing, the active one if it can be chosen.
@@ -182,13 +217,14 @@ impl Hands {
         let drags = match &self.movers[self.active as usize].state {
             State::Holding(held) => held.dragged,
             State::Reaching(_) | State::Closing { .. } => true,
-            State::Free | State::Opening(_) => false,
+            State::Free | State::Opening(_) | State::Pulling(_) => false,
         };
         // What is before the panel, and met by the ray, hides it.
         let panel = pointing::panel(controls.ray, around).filter(|_| !drags);
         let hidden = |far: f32| by_ray.is_some_and(|it| it.beside == 0.0 && it.along < far);
         self.on_panel = self.points && panel.is_some_and(|far| !hidden(far));
         self.steer(controls);
+        self.on_glove = false;
         if !self.movers[self.active as usize].is_free() {
             return;
         }
@@ -197,18 +233,23 @@ impl Hands {
                 let at = user + (at - user).clamp_length_max(REACH);
                 self.spot = Vec3::new(at.x, around.table, at.y);
             }
-            self.picked = by_ray.map(|it| it.thing);
         } else if walks {
             let speed = if controls.slow { SLOW * KEYS } else { KEYS };
             let walk = controls.walk[0] * controls.right + controls.walk[1] * controls.away;
             let at = level(self.spot + speed * dt * walk) - user;
             let at = user + at.clamp_length_max(REACH);
             self.spot = Vec3::new(at.x, around.table, at.y);
-            self.picked = by_place(at, around);
         }
-        if self.on_panel {
-            self.picked = None;
-        } else if (controls.pointed || walks) && self.press.is_none() {
+        // What the ray meets hides a hand behind it.
+        let met = by_ray.is_some_and(|it| it.beside == 0.0);
+        self.on_glove = self.points && !self.on_panel && !met && self.is_on_glove(around);
+        // In every frame: the view may turn under a pointer that is still, and a flask may break.
+        self.picked = match self.points {
+            _ if self.on_panel || self.on_glove => None,
+            true => by_ray.map(|it| it.thing),
+            false => by_place(level(self.spot), around),
+        };
+        if !self.on_panel && (controls.pointed || walks) && self.press.is_none() {
             self.movers[self.active as usize].target = self.hovering(around);
         }
     }
@@ -216,13 +257,22 @@ impl Hands {
     /// The pointer moves what the active hand holds, or what it is about to take.
     fn steer(&mut self, controls: &Controls) {
         let user = level(self.head);
+        self.tilted |= controls.tilt_drag != 0.0;
+        // After a tilt the pointer is elsewhere: what it drags goes on from where it is.
+        let leapt = controls.pointed && std::mem::take(&mut self.tilted);
         match &mut self.movers[self.active as usize].state {
             State::Reaching(taking) | State::Closing { taking, .. } if controls.pointed => {
-                taking.to = Some(controls.ray);
+                // What is dropped as soon as it is held is no longer dragged.
+                if !taking.drops {
+                    taking.to = Some(controls.ray);
+                }
             }
             State::Holding(held) => {
                 let on_panel = self.on_panel && !held.dragged;
                 if controls.pointed && (held.dragged || held.follows) && !on_panel {
+                    if leapt {
+                        held.engage(controls.ray);
+                    }
                     held.point(controls.ray, controls.away, user);
                 }
                 if !held.is_put_down() {
@@ -262,10 +312,7 @@ impl Hands {
         }
         let pressing = self.press.map(|it| it.side);
         if let Some(side) = pressing.or(presser.filter(|_| self.on_panel)) {
-            let rest = rest(side, self.head, self.ahead, around.table);
-            let over = hover(around, level(rest), REST_CLEAR, REST_CLEAR);
-            let mover = &mut self.movers[side as usize];
-            mover.target.position = rest.with_y(rest.y.max(over));
+            self.movers[side as usize].target.position = self.rests(side, around);
         }
     }
 
@@ -273,39 +320,58 @@ impl Hands {
     fn decide(&mut self, controls: &Controls, around: &Around) {
         let press = controls.press && !self.on_panel;
         let let_go = controls.release || !controls.pressed;
-        let eye = controls.ray.0;
+        let asks_glove = controls.gloves || (press && self.on_glove);
+        if asks_glove && self.press.is_none() && self.can_pull(around) {
+            self.movers[self.active as usize].state = State::Pulling(Pull::Goes { clear: false });
+            return;
+        }
         let picked = self.picked.filter(|_| self.press.is_none());
+        // A click is enough to put goggles on, and needs not wait for the hand.
+        let goggles = |thing: usize| {
+            let thing = around.things.get(thing);
+            thing.is_some_and(|it| it.kind == Kind::Goggles)
+        };
         let toggles = self.toggles;
+        let asked = controls.grip || (toggles && press);
         let stays = controls.grip || toggles;
         let drag = picked.and_then(|thing| self.drag(around, thing));
         let mover = &mut self.movers[self.active as usize];
         match &mut mover.state {
             State::Free | State::Opening(_) => {
-                let begins = controls.grip || (press && (toggles || !let_go));
+                let clicks = toggles || !let_go || picked.is_some_and(goggles);
+                let begins = controls.grip || (press && clicks);
                 if let (true, Some(thing), Some(drag)) = (begins, picked, drag) {
                     mover.take(Taking {
                         thing,
                         drag,
                         to: None,
                         stays,
-                        drops: false,
+                        drops: !stays && let_go,
                     });
                 }
             }
             State::Reaching(taking) => {
-                let ends = controls.grip || (toggles && press) || (!taking.stays && let_go);
-                if ends {
+                let ends = asked || (!taking.stays && let_go);
+                if ends && goggles(taking.thing) {
+                    taking.drops = true;
+                } else if ends {
                     mover.state = State::Free;
                 }
             }
-            State::Closing { taking, .. } => taking.drops |= !taking.stays && let_go,
+            State::Closing { taking, .. } => {
+                taking.drops |= asked || (!taking.stays && let_go);
+            }
+            State::Pulling(pull) => {
+                if (controls.grip || press) && !pull.is_closed() {
+                    mover.state = State::Free;
+                }
+            }
             State::Holding(held) => {
-                let asked = controls.grip || (toggles && press);
                 if asked && held.is_put_down() {
                     held.engage(controls.ray);
                     held.follows = true;
                 } else if asked || (held.dragged && let_go) {
-                    mover.put_down(around, eye);
+                    mover.put_down(around, self.head);
                 } else if press {
                     held.engage(controls.ray);
                     held.dragged = true;
@@ -326,19 +392,23 @@ impl Hands {
     }
 
     fn draw(&mut self, around: &Around) {
-        let mut drawn = Vec::new();
-        for mover in &self.movers {
-            if let State::Holding(held) = &mover.state {
-                lines::held(around, held.thing, &held.pose(), &mut drawn);
-            }
-        }
+        // In the order of what they are worth: the last ones are left out.
+        let (mut drawn, mut rings) = (Vec::new(), Vec::new());
         let is_free = self.movers[self.active as usize].is_free();
         let picked = self.picked.and_then(|it| around.things.get(it));
         match picked {
+            _ if self.on_glove => lines::wrist(&self.gloved(), &mut drawn),
             Some(thing) if is_free && !self.on_panel => lines::mark(thing, &mut drawn),
             None if is_free && !self.on_panel => lines::cross(self.spot, &mut drawn),
             _ => {}
         }
+        for mover in &self.movers {
+            if let State::Holding(held) = &mover.state {
+                lines::held(around, held.thing, &held.pose(), &mut drawn, &mut rings);
+            }
+        }
+        drawn.append(&mut rings);
+        drawn.truncate(lines::MOST);
         self.lines = drawn;
     }
 

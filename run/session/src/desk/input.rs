@@ -370,7 +370,7 @@ mod tests {
         for _ in 0..2 {
             let turns = inputs.turns(0.1);
             assert!(turns.yaw > 0.0 && turns.rise < 0.0);
-            let controls = inputs.controls(&Viewpoint::default(), false);
+            let controls = inputs.controls(&Viewpoint::default());
             assert_eq!(controls.walk, [0.5, -0.25]);
             assert_eq!((controls.raise, controls.tilt), (0.75, 0.0));
         }

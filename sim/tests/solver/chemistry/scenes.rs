@@ -192,9 +192,9 @@ fn chemistry_costs_memory_where_it_is_asked_for() {
     // after diffusion.
     let own = bytes(Some(paper(Some(dilution()), Some(boils))));
     assert_eq!(own - none, 3 * 16 + 8);
-    // In their place matter, bulk and eddies with copies, and ledger.
+    // In their place matter, bulk and eddies with copies, ledger, and what a particle may keep of its exchange.
     let own = bytes(Some(Chemistry::Physical(mixing_alone())));
-    assert_eq!(own - none, 3 * 16 + 5 * 16 + 2 * 8);
+    assert_eq!(own - none, 3 * 16 + 5 * 16 + 2 * 8 + 4);
     // Room for 16 more neighbours where the liquid contracts.
     let dense = bytes(Some(Chemistry::Physical(boiling())));
     assert_eq!(dense - own, 16 * 4);

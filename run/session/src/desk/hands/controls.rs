@@ -2,6 +2,11 @@
 
 use glam::Vec3;
 
+/// Speed of keys over the bench, m/s, and the share of a speed that is slow.
+pub(super) const KEYS: f32 = 0.25;
+pub(super) const SLOW: f32 = 0.25;
+/// How far from the user the pointer's place on the bench, or what is held, is at most, m: an arm's length and a step.
+pub(super) const REACH: f32 = 0.85;
 /// Most notches of the wheel, and most tilt by the mouse (rad), in a frame: more is a fault of the device.
 const NOTCHES: f32 = 20.0;
 const TILT: f32 = 3.2;
@@ -41,6 +46,10 @@ pub struct Controls {
     pub other: bool,
     /// The key that presses what the pointer is at on the panel was pressed since the last frame.
     pub panel_press: bool,
+    /// The key that swirls a held flask is down.
+    pub swirl: bool,
+    /// The key that pulls the other hand's glove off was pressed since the last frame.
+    pub gloves: bool,
 }
 
 impl Controls {
@@ -66,6 +75,24 @@ impl Controls {
             raise: within(self.raise, 1.0),
             tilt: within(self.tilt, 1.0),
             ..*self
+        }
+    }
+
+    /// These controls with what was new in `earlier` frames, in which no time passed. A key that was pressed twice meanwhile undid
+    /// itself.
+    pub(super) fn after(self, earlier: &Self) -> Self {
+        Self {
+            pressed: self.pressed || earlier.press,
+            press: self.press || earlier.press,
+            release: self.release || earlier.release,
+            pointed: self.pointed || earlier.pointed,
+            wheel: (self.wheel + earlier.wheel).clamp(-NOTCHES, NOTCHES),
+            tilt_drag: (self.tilt_drag + earlier.tilt_drag).clamp(-TILT, TILT),
+            grip: self.grip != earlier.grip,
+            other: self.other != earlier.other,
+            panel_press: self.panel_press || earlier.panel_press,
+            gloves: self.gloves || earlier.gloves,
+            ..self
         }
     }
 }

@@ -1,11 +1,12 @@
 //! One hand: on its way, closing, holding, opening.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use vitriol_xr::{Around, Pose, Side};
 
-use super::controls::Controls;
+use super::gloves::{self, Pull};
 use super::held::{Drag, Fares, Held};
 use super::motion::{Motion, SPEED, turn_between};
+use super::obstacles::level;
 use super::pointing::{Ray, grip_at};
 
 /// From where it closes, m and rad, a hand is at what it takes.
@@ -40,7 +41,7 @@ pub(super) enum State {
     Free,
     /// It goes to what it is to take.
     Reaching(Taking),
-    /// It has closed, and the world has not said what it holds.
+    /// It has closed, and it is not known yet what it holds.
     Closing {
         taking: Taking,
         waited: f32,
@@ -50,6 +51,8 @@ pub(super) enum State {
     Holding(Box<Held>),
     /// It has opened this many seconds ago.
     Opening(f32),
+    /// It pulls the other hand's glove off.
+    Pulling(Pull),
 }
 
 /// A hand.
@@ -82,7 +85,11 @@ impl Mover {
 
     /// Whether it is closed.
     pub fn is_closed(&self) -> bool {
-        matches!(self.state, State::Closing { .. } | State::Holding(_))
+        match &self.state {
+            State::Closing { .. } | State::Holding(_) => true,
+            State::Pulling(pull) => pull.is_closed(),
+            State::Free | State::Reaching(_) | State::Opening(_) => false,
+        }
     }
 
     /// Whether it holds nothing and is about to take nothing.
@@ -90,8 +97,8 @@ impl Mover {
         matches!(self.state, State::Free | State::Opening(_))
     }
 
-    /// Takes in what the world says that it holds.
-    pub fn hear(&mut self, around: &Around, eye: Vec3, frame: &Controls, user: Vec2) {
+    /// Takes in what it holds; the user's eyes are at `eyes`, and `away` leads away from the viewer.
+    pub fn take_in(&mut self, around: &Around, eyes: Vec3, away: Vec3) {
         let holds = around.holds[self.side as usize];
         // The thing broke, or the other hand took it over.
         let lost = matches!(&self.state, State::Holding(held) if holds != Some(held.thing));
@@ -115,11 +122,11 @@ impl Mover {
             held.dragged = !taking.stays && !taking.drops;
             held.follows = taking.stays;
             if let Some(ray) = taking.to {
-                held.point(ray, frame.away, user);
+                held.point(ray, away, level(eyes));
             }
             self.state = State::Holding(Box::new(held));
             if taking.drops {
-                self.put_down(around, eye);
+                self.put_down(around, eyes);
             }
         } else if late {
             self.open();
@@ -132,10 +139,10 @@ impl Mover {
     }
 
     /// Begins to put down what it holds.
-    pub fn put_down(&mut self, around: &Around, eye: Vec3) {
+    pub fn put_down(&mut self, around: &Around, eyes: Vec3) {
         if let State::Holding(held) = &mut self.state {
             (held.dragged, held.follows) = (false, false);
-            if held.put_down(around, eye) == Fares::Stands {
+            if held.put_down(around, eyes) == Fares::Stands {
                 self.open();
             }
         }
@@ -144,13 +151,26 @@ impl Mover {
     /// The other hand becomes the active one: this one stays, and keeps what it has.
     pub fn leave(&mut self) {
         match &mut self.state {
-            State::Free | State::Reaching(_) => {
-                self.state = State::Free;
-                self.target = self.motion.pose;
-            }
+            State::Free | State::Reaching(_) => self.stay(),
             State::Closing { taking, .. } => taking.stays = true,
             State::Holding(held) => held.leave(),
+            State::Pulling(pull) if pull.is_closed() => self.open(),
+            State::Pulling(_) => self.stay(),
             State::Opening(_) => {}
+        }
+    }
+
+    fn stay(&mut self) {
+        self.state = State::Free;
+        self.target = self.motion.pose;
+    }
+
+    /// Away from what is before its palm.
+    fn back(&self) -> Vec3 {
+        let out = self.motion.pose.orientation * Vec3::X;
+        match self.side {
+            Side::Right => out,
+            Side::Left => -out,
         }
     }
 
@@ -159,13 +179,9 @@ impl Mover {
         if let State::Holding(held) = &self.state {
             self.motion = held.hand();
         }
-        let out = self.motion.pose.orientation * Vec3::X;
-        let out = match self.side {
-            Side::Right => out,
-            Side::Left => -out,
-        };
         self.target = self.motion.pose;
-        self.target.position += BACK * out;
+        let back = BACK * self.back();
+        self.target.position += back;
         self.state = State::Opening(0.0);
     }
 
@@ -195,6 +211,28 @@ impl Mover {
             State::Holding(held) => {
                 if held.step(around, h) == Fares::Stands {
                     self.open();
+                }
+            }
+            State::Pulling(pull) => {
+                let pull = *pull;
+                self.motion = match pull {
+                    Pull::Closes(_) => self.motion.braked(h),
+                    Pull::Goes { .. } | Pull::Leaves => self.motion.towards(&self.target, SPEED, h),
+                };
+                match pull {
+                    Pull::Goes { clear } if clear && self.is_there() => {
+                        self.state = State::Pulling(Pull::Closes(0.0));
+                    }
+                    Pull::Closes(since) if since < gloves::CLOSES => {
+                        self.state = State::Pulling(Pull::Closes(since + h));
+                    }
+                    Pull::Closes(_) => {
+                        let off = gloves::OFF * self.back();
+                        self.target.position += off;
+                        self.state = State::Pulling(Pull::Leaves);
+                    }
+                    Pull::Leaves if self.is_there() => self.open(),
+                    Pull::Goes { .. } | Pull::Leaves => {}
                 }
             }
             State::Opening(since) => {

@@ -3,14 +3,16 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{Quat, Vec2, Vec3};
-use vitriol_xr::{Around, Pose};
+use vitriol_xr::{Around, Kind, Pose};
 
 use super::motion::{Motion, SPEED, turn_between};
 use super::obstacles::{Bench, Clear, Shape, axis, level, slides};
 
 mod steering;
+mod swirl;
 
 pub(super) use steering::Drag;
+use swirl::Swirl;
 
 /// Distances that a carried body keeps, m: our choice. Beside glass it covers what a hand that turns off its way needs.
 const CARRIED: Clear = Clear {
@@ -22,8 +24,7 @@ const CARRIED: Clear = Clear {
 const TILTED_GLASS: f32 = 0.01;
 /// Tilt from which on all of that holds, rad.
 const TILTED: f32 = 0.25 * FRAC_PI_2;
-/// A tool lower than this, m, is a cloth, which wipes the table.
-const FLAT: f32 = 0.03;
+/// How far over the table a cloth is moved, which wipes it, m; and how far from what it must not touch a body is at least.
 const WIPES: f32 = 0.001;
 /// The share of the distances that is enough to go on sideways while it still rises.
 const ENOUGH: f32 = 0.4;
@@ -36,9 +37,12 @@ const STANDS: f32 = 0.0013;
 const STIRS: f32 = 0.005;
 /// How far a sash's bar goes up from the table, m (`SASH_TRAVEL` of the scene, and the bar).
 const SASH: f32 = 0.6;
-/// Goggles are broader and higher than this, m; let go of this near the eyes they are put on (`bodies::wear`).
-const GOGGLES: [f32; 2] = [0.05, 0.04];
+/// Distance from the eyes, m, at which goggles are let go where they were dragged there, and where a click brought them there: less
+/// than that in which they are put on (0.15 m, `bodies::wear`), however they are turned.
 const WORN: f32 = 0.12;
+const AT_EYES: f32 = 0.03;
+/// Cosine of the lean up to which a flask is upright: 10°.
+const UPRIGHT: f32 = 0.985;
 /// Time in which a motion is looked ahead as it brakes, s, and how many times.
 const BRAKE: f32 = 0.02;
 const BRAKES: usize = 16;
@@ -47,6 +51,8 @@ const AHEAD: f32 = 0.2;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Putting {
+    /// Goggles go to the eyes, so that the point by which they are held is there.
+    Wearing(Vec3),
     /// It turns as it is to stand or lie.
     Turning,
     /// It sinks.
@@ -72,9 +78,9 @@ pub(super) struct Held {
     pub dragged: bool,
     /// Whether the pointer moves it without a button.
     pub follows: bool,
-    flask: bool,
+    kind: Kind,
     slides: bool,
-    goggles: bool,
+    radius: f32,
     shape: Shape,
     /// From its foot along its axis to the held point, m.
     centre: f32,
@@ -102,6 +108,7 @@ pub(super) struct Held {
     /// It has left its place.
     moved: bool,
     putting: Option<Putting>,
+    swirl: Swirl,
 }
 
 impl Held {
@@ -113,16 +120,16 @@ impl Held {
         let laid = it.pose.orientation.normalize();
         let at = it.pose.position + centre * (laid * Vec3::Y);
         let mut clear = CARRIED;
-        if !it.flask && it.height < FLAT {
+        if it.kind == Kind::Cloth {
             clear.table = WIPES;
         }
         Some(Self {
             thing,
             dragged: false,
             follows: false,
-            flask: it.flask,
+            kind: it.kind,
             slides: slides(it),
-            goggles: !it.flask && it.radius > GOGGLES[0] && it.height > GOGGLES[1],
+            radius: it.radius,
             shape: Shape::of(it, centre),
             centre,
             height: it.height,
@@ -143,6 +150,7 @@ impl Held {
             walking: false,
             moved: false,
             putting: None,
+            swirl: Swirl::default(),
         })
     }
 
@@ -153,7 +161,7 @@ impl Held {
             orientation,
         } = self.motion.pose;
         Pose::new(
-            position - self.centre * (orientation * Vec3::Y),
+            position + self.swirl.offset() - self.centre * (orientation * Vec3::Y),
             orientation,
         )
     }
@@ -180,17 +188,23 @@ impl Held {
     }
 
     /// Begins to put it down, if it is not put down already.
-    pub fn put_down(&mut self, around: &Around, eye: Vec3) -> Fares {
+    pub fn put_down(&mut self, around: &Around, eyes: Vec3) -> Fares {
+        let goggles = self.kind == Kind::Goggles;
         let middle = self.pose().transform_point(0.5 * self.height * Vec3::Y);
-        if self.slides || (self.goggles && middle.distance(eye) < WORN) {
+        if self.slides || (goggles && middle.distance(eyes) < WORN) {
             return Fares::Stands;
+        }
+        if goggles && self.putting.is_none() && !self.leaves_its_place() {
+            self.moved = true;
+            let middle = (0.5 * self.height - self.centre) * Vec3::Y;
+            self.putting = Some(Putting::Wearing(eyes - middle));
         }
         if self.putting.is_none() {
             self.stop();
             self.tilt = 0.0;
             self.turning = false;
             let laid = self.laid * Vec3::Y;
-            self.lays = !self.flask && laid.y.abs() < 0.99;
+            self.lays = self.kind != Kind::Flask && laid.y.abs() < 0.99;
             // What was taken only to be steadied stands.
             let stands = !self.moved || self.is_resting(around);
             self.putting = Some(match stands {
@@ -199,6 +213,13 @@ impl Held {
             });
         }
         Fares::Held
+    }
+
+    /// Whether it was moved, or is asked to.
+    fn leaves_its_place(&self) -> bool {
+        let aside = level(self.motion.pose.position).distance(self.aim) > STIRS;
+        let asked = self.lift != 0.0 || self.tilt.abs() > STIRS || self.swirl.wanted;
+        self.moved || aside || asked
     }
 
     fn is_resting(&self, around: &Around) -> bool {
@@ -230,8 +251,36 @@ impl Held {
         let share = (self.tilt_now().abs() / TILTED).clamp(0.0, 1.0);
         Clear {
             glass: self.clear.glass + share * (TILTED_GLASS - self.clear.glass),
+            aside: self.clear.aside + self.swirl.room(),
             ..self.clear
         }
+    }
+
+    /// The distances below which it never goes, with so much room aside, m.
+    fn hard(room: f32) -> Clear {
+        Clear {
+            aside: Clear::HARD.aside + room,
+            ..Clear::HARD
+        }
+    }
+
+    /// The swirl goes on: it begins as soon as the flask has left the table and has room.
+    fn go_round(&mut self, around: &Around, h: f32) {
+        if !self.swirl.is_on() {
+            return;
+        }
+        let Pose {
+            position,
+            orientation,
+        } = self.motion.pose;
+        let clear = Clear {
+            table: 0.5 * WIPES,
+            ..Self::hard(self.swirl.room())
+        };
+        let points = self.shape.turned(orientation);
+        let floor = Bench::carrying(around, self.thing).floor(&points, level(position), &clear);
+        let upright = (orientation * Vec3::Y).y > UPRIGHT;
+        self.swirl.step(upright && position.y >= floor, h);
     }
 
     /// Moves it for `h` seconds.
@@ -243,9 +292,8 @@ impl Held {
             self.motion = self.motion.towards(&target, SPEED, h);
             return Fares::Held;
         }
-        let at = level(self.motion.pose.position);
-        let asked = self.lift != 0.0 || self.tilt.abs() > STIRS;
-        self.moved |= self.putting.is_none() && (asked || at.distance(self.aim) > STIRS);
+        self.moved |= self.putting.is_none() && self.leaves_its_place();
+        self.go_round(around, h);
         if self.putting.is_none() && !self.moved {
             self.motion = self.motion.braked(h);
             return Fares::Held;
@@ -254,6 +302,13 @@ impl Held {
             return self.lower(around, h);
         }
         self.carry(around, h);
+        if let Some(Putting::Wearing(at)) = self.putting {
+            let near = self.motion.pose.position.distance(at) < AT_EYES;
+            return match near && self.motion.is_slow() {
+                true => Fares::Stands,
+                false => Fares::Held,
+            };
+        }
         let apart = turn_between(self.motion.pose.orientation, self.down()).length();
         if self.putting == Some(Putting::Turning) && apart < 0.01 && self.motion.turns_no_more() {
             let points = self.shape.turned(self.motion.pose.orientation);
@@ -273,6 +328,11 @@ impl Held {
         let bench = Bench::carrying(around, self.thing);
         let now = self.motion.pose;
         let at = level(now.position);
+        let aim = match (self.putting, self.kind) {
+            (Some(Putting::Wearing(at)), _) => level(at),
+            (_, Kind::Rod) => bench.within_mouth(self.pose().position, self.aim, self.radius),
+            _ => self.aim,
+        };
         let wanted = self.wanted();
         let ahead = now.orientation.rotate_towards(wanted, AHEAD);
         let here = self.shape.turned(now.orientation);
@@ -280,11 +340,12 @@ impl Held {
         let kept = self.kept();
         // As it turns: with what it keeps now and will keep then.
         let clears = bench
-            .path(&here, at, self.aim, &kept)
-            .max(bench.path(&soon, at, self.aim, &kept));
+            .path(&here, at, aim, &kept)
+            .max(bench.path(&soon, at, aim, &kept));
+        let roomy = Self::hard(self.swirl.room());
         let least = bench
-            .floor(&here, at, &Clear::HARD)
-            .max(bench.floor(&soon, at, &Clear::HARD));
+            .floor(&here, at, &roomy)
+            .max(bench.floor(&soon, at, &roomy));
         self.lift = self.lift.max(WIPES - kept.table);
         // What is tilted does not sink by itself: keys that are tapped bring it over a rim bit by bit, and a pour is left where it is.
         let stays = self.putting.is_none() && self.tilt_now().abs() > TILTED;
@@ -293,7 +354,10 @@ impl Held {
         } else {
             clears
         };
-        let height = (self.cleared + self.lift).max(least + WIPES);
+        let mut height = (self.cleared + self.lift).max(least + WIPES);
+        if let Some(Putting::Wearing(at)) = self.putting {
+            height = height.max(at.y);
+        }
         // What the user lowered is carried on as low as that.
         let low = |kept: f32, least: f32| {
             let lowered = kept + self.lift - 0.5 * WIPES;
@@ -304,7 +368,7 @@ impl Held {
             glass: low(kept.glass, Clear::HARD.glass),
             ..kept
         };
-        let free = bench.farthest(&here, [at, self.aim], now.position.y, &enough);
+        let free = bench.farthest(&here, [at, aim], now.position.y, &enough);
         let turns = now.position.y >= least;
         let target = Pose::new(
             Vec3::new(free.x, height, free.y),
@@ -312,9 +376,10 @@ impl Held {
         );
         // It rises, at least.
         let rises = Pose::new(now.position.with_y(height), now.orientation);
+        let hard = Self::hard(self.swirl.radius());
         let depth = |pose: &Pose| {
             let points = self.shape.turned(pose.orientation);
-            bench.floor(&points, level(pose.position), &Clear::HARD) - pose.position.y
+            bench.floor(&points, level(pose.position), &hard) - pose.position.y
         };
         let allowed = depth(&now).max(1e-4);
         let found = [target, rises]
@@ -325,6 +390,10 @@ impl Held {
     }
 
     fn lower(&mut self, around: &Around, h: f32) -> Fares {
+        if self.swirl.is_on() {
+            self.motion = self.motion.braked(h);
+            return Fares::Held;
+        }
         let now = self.motion.pose;
         let bench = Bench::resting(around, self.thing);
         let points = self.shape.turned(now.orientation);

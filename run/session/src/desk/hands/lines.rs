@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use glam::{Vec2, Vec3};
+use glam::{Quat, Vec3};
 use vitriol_xr::{Around, Line, Pose, Thing};
 
 use super::obstacles::{axis, counts, level, slides};
@@ -10,8 +10,12 @@ use super::obstacles::{axis, counts, level, slides};
 /// Radius of the lines, m.
 const THICK: f32 = 0.0012;
 const THIN: f32 = 0.0008;
-/// Straight parts of a ring.
-const PARTS: usize = 24;
+/// Straight parts of a ring, and the most lines: the picture has bones for so many.
+const PARTS: usize = 12;
+pub(super) const MOST: usize = 40;
+/// From the palm's middle to the wrist, m: half a hand (0.19 m, median of adults: NASA-STD-3000); and radius of a ring around it.
+const WRIST: f32 = 0.095;
+const WRIST_RING: f32 = 0.045;
 /// From a thing to its ring, and of a ring over what it lies on, m.
 const OFF: f32 = 0.006;
 const OVER: f32 = 0.003;
@@ -34,7 +38,14 @@ pub(super) fn mark(thing: &Thing, lines: &mut Vec<Line>) {
         });
         return;
     }
-    ring(foot + OVER * Vec3::Y, thing.radius + OFF, THICK, lines);
+    let flat = Pose::new(foot + OVER * Vec3::Y, Quat::IDENTITY);
+    ring(&flat, thing.radius + OFF, THICK, lines);
+}
+
+/// A glove that a press would pull off: a ring around the wrist of the hand with that grip pose, whose +Y leads to the wrist.
+pub(super) fn wrist(grip: &Pose, lines: &mut Vec<Line>) {
+    let wrist = Pose::new(grip.transform_point(WRIST * Vec3::Y), grip.orientation);
+    ring(&wrist, WRIST_RING, THICK, lines);
 }
 
 /// Where a hand that holds nothing points on the bench.
@@ -48,27 +59,32 @@ pub(super) fn cross(at: Vec3, lines: &mut Vec<Line>) {
     }
 }
 
-/// Of a held thing at that pose: its shadow straight below, and, where it is tilted and can be poured from, the way of the pour.
-pub(super) fn held(around: &Around, index: usize, pose: &Pose, lines: &mut Vec<Line>) {
+/// Of a held thing at that pose: the way of the pour, where it is tilted and can be poured from, and rings: where the pour ends, and the
+/// thing's shadow straight below.
+pub(super) fn held(
+    around: &Around,
+    index: usize,
+    pose: &Pose,
+    lines: &mut Vec<Line>,
+    rings: &mut Vec<Line>,
+) {
     let Some(thing) = around.things.get(index).filter(|it| !slides(it)) else {
         return;
     };
     let axis = pose.orientation * Vec3::Y;
-    let middle = pose.position + 0.5 * thing.height * axis;
-    let shadow = under(around, index, middle);
-    ring(shadow + OVER * Vec3::Y, thing.radius, THIN, lines);
-    if !thing.flask {
-        return;
-    }
-    if let Some(lip) = lip(thing, pose) {
+    let over = |place: Vec3| Pose::new(place + OVER * Vec3::Y, Quat::IDENTITY);
+    if let Some(lip) = lip(thing, pose).filter(|_| thing.is_flask()) {
         let to = under(around, index, lip);
         lines.push(Line {
             from: lip,
             to,
             radius: THICK,
         });
-        ring(to + OVER * Vec3::Y, OFF, THICK, lines);
+        ring(&over(to), OFF, THICK, rings);
     }
+    let middle = pose.position + 0.5 * thing.height * axis;
+    let shadow = under(around, index, middle);
+    ring(&over(shadow), thing.radius, THIN, rings);
 }
 
 /// The lowest point of a tilted flask's rim; `None` where it is upright.
@@ -92,7 +108,7 @@ fn under(around: &Around, but: usize, point: Vec3) -> Vec3 {
             let foot = it.pose.position;
             let away = level(foot).distance(place);
             let stands = axis(it).y > LIES && foot.y < point.y;
-            let height = match it.flask && away < it.rim {
+            let height = match it.is_flask() && away < it.rim {
                 true => OVER,
                 false => it.height,
             };
@@ -101,10 +117,11 @@ fn under(around: &Around, but: usize, point: Vec3) -> Vec3 {
     point.with_y(below.fold(around.table, f32::max))
 }
 
-fn ring(middle: Vec3, radius: f32, thick: f32, lines: &mut Vec<Line>) {
+/// A ring around the +Y axis of a pose.
+fn ring(middle: &Pose, radius: f32, thick: f32, lines: &mut Vec<Line>) {
     let at = |n: usize| {
-        let around = radius * Vec2::from_angle(TAU * n as f32 / PARTS as f32);
-        middle + Vec3::new(around.x, 0.0, around.y)
+        let (sin, cos) = (TAU * n as f32 / PARTS as f32).sin_cos();
+        middle.transform_point(radius * Vec3::new(cos, 0.0, sin))
     };
     lines.extend((0..PARTS).map(|n| Line {
         from: at(n),

@@ -6,10 +6,14 @@
 use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3};
-use vitriol_xr::{Around, Moves, Thing};
+use vitriol_xr::{Around, Kind, Moves, Thing};
 
-/// A tool of a smaller radius, m, is no obstacle to a flask: a rod or thermometer that lies about.
-const THIN: f32 = 0.01;
+/// What a rod keeps from the outside of a flask's mouth, and the thickness of a flask's bottom, m: glass is 1 to 3 mm thick.
+const WALL: f32 = 0.003;
+/// Cosine of the lean up to which a rod can be dipped into a flask: 10°.
+const UPRIGHT: f32 = 0.985;
+/// How far beside a flask the pointer is, m, until a rod leaves that: more than a key that moves the rod asks for at a time.
+const LEAVES: f32 = 0.05;
 /// Points around a ring, and distance of rings along the axis, m.
 const SIDES: usize = 12;
 const RINGS_APART: f32 = 0.02;
@@ -87,7 +91,18 @@ impl Shape {
 struct Column {
     ends: [Vec2; 2],
     radius: f32,
+    foot: f32,
     top: f32,
+    /// Radius of the way into it, m, for a rod.
+    mouth: Option<f32>,
+}
+
+impl Column {
+    /// Whether a place is over the way into it.
+    fn is_entered(&self, place: Vec2) -> bool {
+        let apart = distance(self.ends, place);
+        self.mouth.is_some_and(|mouth| apart <= mouth)
+    }
 }
 
 /// The table and what stands on it, for one held body.
@@ -98,34 +113,27 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// What the body of that index must clear while it is carried.
+    /// What the body of that index must clear while it is carried. A rod goes into a flask, through its mouth.
     pub fn carrying(around: &Around, held: usize) -> Self {
-        Self::new(around, held, |held, other| {
-            if held.flask {
-                other.flask || other.radius > THIN
-            } else {
-                // A rod goes into a beaker, and through its mouth.
-                other.flask && other.rim <= held.radius
-            }
-        })
+        let thing = around.things.get(held);
+        let dips = thing.is_some_and(|it| it.kind == Kind::Rod);
+        Self::new(around, held, dips)
     }
 
-    /// What must not be where that body is put down. Tools lie on each other.
+    /// What must not be where that body is put down.
     pub fn resting(around: &Around, held: usize) -> Self {
-        Self::new(around, held, |held, other| {
-            other.flask || (held.flask && other.radius > THIN)
-        })
+        Self::new(around, held, false)
     }
 
-    fn new(around: &Around, held: usize, blocks: impl Fn(&Thing, &Thing) -> bool) -> Self {
+    fn new(around: &Around, held: usize, dips: bool) -> Self {
         let held_thing = around.things.get(held);
         let others = around.things.iter().enumerate();
         let columns = others
             .filter(|&(index, other)| {
                 let stands = counts(other, around.table) && !slides(other);
-                index != held && stands && held_thing.is_some_and(|it| blocks(it, other))
+                index != held && stands && held_thing.is_some_and(|it| hinders(it, other))
             })
-            .map(|(_, other)| column(other))
+            .map(|(_, other)| column(other, dips))
             .collect();
         Self {
             table: around.table,
@@ -140,7 +148,9 @@ impl Bench {
             let place = at + level(point);
             let mut under = self.table + clear.table;
             for column in &self.columns {
-                if distance(column.ends, place) <= column.radius + clear.aside {
+                if column.is_entered(place) {
+                    under = under.max(column.foot + WALL + clear.table);
+                } else if distance(column.ends, place) <= column.radius + clear.aside {
                     under = under.max(column.top + clear.glass);
                 }
             }
@@ -164,6 +174,23 @@ impl Bench {
         reached.unwrap_or(way[0])
     }
 
+    /// The place that a rod of that radius goes to if the pointer wants it at `aim`: while its lower end is in a flask, it stays in the
+    /// mouth of that, until the pointer is well beside the flask or the rod was raised over the rim.
+    pub fn within_mouth(&self, end: Vec3, aim: Vec2, radius: f32) -> Vec2 {
+        let mut columns = self.columns.iter();
+        let flask = columns.find(|it| it.is_entered(level(end)) && end.y < it.top);
+        let Some((flask, mouth)) = flask.and_then(|it| Some((it, it.mouth?))) else {
+            return aim;
+        };
+        let middle = flask.ends[0].lerp(flask.ends[1], 0.5);
+        let way = aim - middle;
+        if way.length() > flask.radius + LEAVES {
+            return aim;
+        }
+        // A millimetre less, so that no rounding brings it into the wall.
+        middle + way.clamp_length_max((mouth - radius - 0.001).max(0.0))
+    }
+
     /// Whether the body can stand at that place.
     pub fn is_free(&self, points: &[Vec3], at: Vec2) -> bool {
         let lowest = points
@@ -177,7 +204,11 @@ impl Bench {
 /// Least height over the place `at` that is `over` (m) above the table, and above the top of all that is within `aside` of it.
 pub(super) fn hover(around: &Around, at: Vec2, over: f32, aside: f32) -> f32 {
     let near = |thing: &&Thing| counts(thing, around.table) && !slides(thing);
-    let columns = around.things.iter().filter(near).map(column);
+    let columns = around
+        .things
+        .iter()
+        .filter(near)
+        .map(|it| column(it, false));
     let under = columns
         .filter(|it| distance(it.ends, at) <= it.radius + aside)
         .fold(around.table, |under, it| under.max(it.top));
@@ -187,7 +218,7 @@ pub(super) fn hover(around: &Around, at: Vec2, over: f32, aside: f32) -> f32 {
 /// Whether a thing is still on the bench, at a place that is a number: it neither broke nor is worn.
 pub(super) fn counts(thing: &Thing, table: f32) -> bool {
     let sizes = thing.radius.is_finite() && thing.rim.is_finite() && thing.height.is_finite();
-    let there = thing.flask || thing.grips;
+    let there = thing.is_flask() || thing.grips;
     sizes && there && thing.pose.is_valid() && thing.pose.position.y > table - FALLEN
 }
 
@@ -206,7 +237,7 @@ pub(super) fn axis(thing: &Thing) -> Vec3 {
     thing.pose.orientation * Vec3::Y
 }
 
-fn column(thing: &Thing) -> Column {
+fn column(thing: &Thing, dips: bool) -> Column {
     let foot = thing.pose.position;
     let axis = axis(thing);
     let top = foot + thing.height * axis;
@@ -214,8 +245,15 @@ fn column(thing: &Thing) -> Column {
     Column {
         ends: [level(foot), level(top)],
         radius: thing.radius,
+        foot: foot.y,
         top: foot.y.max(top.y) + lies * thing.radius,
+        mouth: (dips && thing.is_flask() && axis.y > UPRIGHT).then_some(thing.rim - WALL),
     }
+}
+
+/// Whether a held body must go over another one, and cannot be put down on it. Tools lie on each other, and rods lie about.
+fn hinders(held: &Thing, other: &Thing) -> bool {
+    other.is_flask() || (held.is_flask() && other.kind != Kind::Rod)
 }
 
 /// Distance of a place from a line between two.

@@ -1,7 +1,7 @@
 //! What the pointer's ray meets, and how a hand stands at what it is to take.
 
 use glam::{Mat3, Quat, Vec2, Vec3};
-use vitriol_xr::{Around, Pose, Side, Thing};
+use vitriol_xr::{Around, Kind, Pose, Side, Thing};
 
 use super::obstacles::{axis, counts, level, slides};
 
@@ -14,8 +14,6 @@ const GAP: f32 = 0.02;
 /// Where on its height a flask is taken, and a rod.
 const AT_FLASK: f32 = 0.55;
 const AT_ROD: f32 = 0.75;
-/// A tool of a greater radius, m, is taken from above: cloth, goggles, a box.
-const BROAD: f32 = 0.02;
 /// Cosine of the lean from which on a thing lies.
 const LIES: f32 = 0.7;
 /// Distance of the palm from other things, m, at which a closing hand takes the right one.
@@ -49,6 +47,12 @@ pub(super) fn panel(ray: Ray, around: &Around) -> Option<f32> {
     let at = pose.inverse().transform_point(hit);
     let within = at.x.abs() <= 0.5 * size[0] && at.y.abs() <= 0.5 * size[1];
     within.then(|| hit.distance(ray.0))
+}
+
+/// How far a ray passes beside a point before it, m.
+pub(super) fn beside((from, along): Ray, point: Vec3) -> f32 {
+    let away = point - from;
+    (away - away.dot(along).max(0.0) * along).length()
 }
 
 /// Whether a hand can close on a thing.
@@ -156,7 +160,7 @@ pub(super) fn grip_at(
     let aside = outwards(side, right);
     if slides(thing) || axis.y.abs() < LIES {
         let along = (spot - foot).dot(axis);
-        let height = match (slides(thing), thing.flask) {
+        let height = match (slides(thing), thing.is_flask()) {
             (true, _) => along.clamp(0.1 * thing.height, 0.9 * thing.height),
             (_, true) => AT_FLASK * thing.height,
             (_, false) => AT_ROD * thing.height,
@@ -165,11 +169,11 @@ pub(super) fn grip_at(
         let at = foot + height * axis + (thing.radius + GAP) * out;
         return Some(Pose::new(at, orientation(side, axis, out)));
     }
-    if !thing.flask && thing.radius > BROAD {
+    if !matches!(thing.kind, Kind::Flask | Kind::Rod) {
         let at = foot.with_y(foot.y.max((foot + thing.height * axis).y) + GAP);
         return Some(Pose::new(at, orientation(side, -aside, Vec3::Y)));
     }
-    let share = if thing.flask { AT_FLASK } else { AT_ROD };
+    let share = if thing.is_flask() { AT_FLASK } else { AT_ROD };
     let stand = |angle: f32| {
         let out = across(angle.cos() * aside - angle.sin() * away, axis);
         // An Erlenmeyer flask is narrower there than at its foot, and about as narrow as its neck.

@@ -4,12 +4,14 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Quat, Vec3};
-use vitriol_xr::{Around, Hand, Moves, Pose, Side, Thing};
+use vitriol_xr::{Around, Hand, Kind, Moves, Pose, Side, Thing};
 
 use super::{Controls, Hands};
 
 mod glass;
 mod others;
+mod time;
+mod wear;
 
 const EYE: Vec3 = Vec3::new(0.0, 1.2, 0.0);
 const TABLE: f32 = 0.75;
@@ -17,13 +19,13 @@ const TABLE: f32 = 0.75;
 const SOURCE: usize = 0;
 const TARGET: usize = 1;
 
-fn thing([radius, rim, height]: [f32; 3], pose: Pose, flask: bool, moves: Moves) -> Thing {
+fn thing([radius, rim, height]: [f32; 3], pose: Pose, kind: Kind, moves: Moves) -> Thing {
     Thing {
         pose,
         radius,
         rim,
         height,
-        flask,
+        kind,
         grips: true,
         moves,
     }
@@ -31,7 +33,7 @@ fn thing([radius, rim, height]: [f32; 3], pose: Pose, flask: bool, moves: Moves)
 
 fn standing(sizes: [f32; 3], x: f32, z: f32) -> Thing {
     let pose = Pose::new(Vec3::new(x, TABLE, z), Quat::IDENTITY);
-    thing(sizes, pose, true, Moves::Freely)
+    thing(sizes, pose, Kind::Flask, Moves::Freely)
 }
 
 /// Two beakers and the panel behind them.
@@ -47,14 +49,18 @@ fn two_flasks() -> Around {
             Pose::new(Vec3::new(0.0, 1.16, -0.80), Quat::from_rotation_x(-0.12)),
             [0.72, 0.6075],
         ),
+        scene: 0,
+        pace: 1.0,
+        longest: 0.1,
+        gloves: [false; 2],
     }
 }
 
 /// A tool that lies along x with its lower end to the right, as a scene puts it.
-fn lying([radius, height]: [f32; 2], middle: Vec3, moves: Moves) -> Thing {
+fn lying([radius, height]: [f32; 2], middle: Vec3, kind: Kind, moves: Moves) -> Thing {
     let turned = Quat::from_rotation_z(FRAC_PI_2);
     let pose = Pose::new(middle - 0.5 * height * (turned * Vec3::Y), turned);
-    thing([radius, radius, height], pose, false, moves)
+    thing([radius, radius, height], pose, kind, moves)
 }
 
 /// The bench, and the hands over it.
@@ -63,6 +69,10 @@ struct Bench {
     around: Around,
     closed: [bool; 2],
     thing_from_grip: [Pose; 2],
+    /// By hand, whether it has hold of the other's glove.
+    pulls: [bool; 2],
+    /// Highest speed, m/s, and acceleration, m/s², of a palm.
+    limits: [f32; 2],
     /// Seconds from frame to frame, and those that count.
     dt: f32,
     counts: f32,
@@ -80,6 +90,9 @@ impl Bench {
             around,
             closed: [false; 2],
             thing_from_grip: [Pose::IDENTITY; 2],
+            pulls: [false; 2],
+            // 0.6 m/s and 3 m/s². A step's length and its rounding allow for a twentieth more.
+            limits: [0.63, 3.15],
             dt,
             counts: dt.min(0.1),
             controls: Controls {
@@ -96,17 +109,7 @@ impl Bench {
     /// One frame, and what is true in each.
     fn frame(&mut self) {
         self.now = self.hands.advance(&self.controls, &self.around, self.dt);
-        for edge in [
-            &mut self.controls.press,
-            &mut self.controls.release,
-            &mut self.controls.pointed,
-            &mut self.controls.grip,
-            &mut self.controls.other,
-            &mut self.controls.panel_press,
-        ] {
-            *edge = false;
-        }
-        (self.controls.wheel, self.controls.tilt_drag) = (0.0, 0.0);
+        self.forget_edges();
         self.follow();
         let palms = self.now.each_ref().map(|hand| {
             assert!(hand.stage_from_grip.is_valid(), "{hand:?}");
@@ -118,6 +121,28 @@ impl Bench {
         self.touches_nothing();
     }
 
+    /// A frame in which no time passes: the hands are as they were.
+    fn still(&mut self) {
+        let now = self.hands.advance(&self.controls, &self.around, 0.0);
+        self.forget_edges();
+        assert_eq!(now, self.now);
+    }
+
+    fn forget_edges(&mut self) {
+        for edge in [
+            &mut self.controls.press,
+            &mut self.controls.release,
+            &mut self.controls.pointed,
+            &mut self.controls.grip,
+            &mut self.controls.other,
+            &mut self.controls.panel_press,
+            &mut self.controls.gloves,
+        ] {
+            *edge = false;
+        }
+        (self.controls.wheel, self.controls.tilt_drag) = (0.0, 0.0);
+    }
+
     /// The bodies as the simulation has them: a hand takes what is within 5 cm as it closes.
     fn follow(&mut self) {
         for side in 0..2 {
@@ -126,8 +151,17 @@ impl Bench {
             let was = self.closed[side];
             self.closed[side] = squeeze >= if was { 0.4 } else { 0.6 };
             let grip = hand.stage_from_grip;
+            let palms = self.now.each_ref().map(|it| it.stage_from_grip.position);
+            let palms_apart = palms[0].distance(palms[1]);
             if !self.closed[side] {
-                self.around.holds[side] = None;
+                self.pulls[side] = false;
+                let let_go = self.around.holds[side].take();
+                if let Some(n) = let_go {
+                    let it = &mut self.around.things[n];
+                    let middle = it.pose.transform_point(0.5 * it.height * Vec3::Y);
+                    // Worn, within 0.15 m of the eyes, no hand can take them.
+                    it.grips &= it.kind != Kind::Goggles || middle.distance(EYE) > 0.15;
+                }
             } else if !was {
                 let all = self.around.things.iter().enumerate();
                 let near = all
@@ -140,6 +174,10 @@ impl Bench {
                     let pose = self.around.things[n].pose;
                     self.thing_from_grip[side] = pose.inverse().compose(&grip);
                 }
+                let gloved = self.around.gloves[1 - side];
+                self.pulls[side] = near.is_none() && gloved && palms_apart <= 0.12;
+            } else if self.pulls[side] && palms_apart > 0.22 {
+                (self.pulls[side], self.around.gloves[1 - side]) = (false, false);
             }
             if let Some(n) = self.around.holds[side] {
                 let it = &mut self.around.things[n];
@@ -155,7 +193,6 @@ impl Bench {
         }
     }
 
-    /// 0.6 m/s and 3 m/s² at most. A step's length and its rounding allow for a twentieth more.
     fn is_smooth(&self) {
         let [.., a, b, c] = self.before[..] else {
             return;
@@ -163,9 +200,9 @@ impl Bench {
         for side in 0..2 {
             let was = (b[side] - a[side]) / self.counts;
             let is = (c[side] - b[side]) / self.counts;
-            assert!(is.length() <= 0.63, "{} m/s", is.length());
+            assert!(is.length() <= self.limits[0], "{} m/s", is.length());
             let changes = (is - was).length() / self.counts;
-            assert!(changes <= 3.15, "{changes} m/s²");
+            assert!(changes <= self.limits[1], "{changes} m/s²");
         }
     }
 
@@ -173,13 +210,16 @@ impl Bench {
     fn touches_nothing(&self) {
         for held in self.around.holds.into_iter().flatten() {
             let it = &self.around.things[held];
-            if !it.flask {
+            if it.kind == Kind::Rod {
+                self.is_in_the_mouth(it);
+            }
+            if !it.is_flask() {
                 continue;
             }
             let lowest = surface(it).fold(f32::INFINITY, |low, at| low.min(at.y));
             assert!(lowest > TABLE - 2e-4, "{} m in the table", TABLE - lowest);
             for (n, other) in self.around.things.iter().enumerate() {
-                if n != held && other.flask {
+                if n != held && other.is_flask() {
                     let depth = |of: &Thing, within: &Thing| {
                         let depths = surface(of).map(|at| apart(within, at));
                         depths.fold(f32::INFINITY, f32::min)
@@ -187,6 +227,22 @@ impl Bench {
                     let nearest = depth(it, other).min(depth(other, it));
                     assert!(nearest > -1e-4, "{nearest} m from the glass {n}");
                 }
+            }
+        }
+    }
+
+    /// What of a rod is between foot and rim of a flask is in its mouth or beside it.
+    fn is_in_the_mouth(&self, rod: &Thing) {
+        for n in 0..=100 {
+            let at = rod
+                .pose
+                .transform_point(0.01 * n as f32 * rod.height * Vec3::Y);
+            for flask in self.around.things.iter().filter(|it| it.is_flask()) {
+                let at = flask.pose.inverse().transform_point(at);
+                let out = at.x.hypot(at.z);
+                let level = (0.0..flask.height).contains(&at.y);
+                let within = out <= flask.rim - rod.radius;
+                assert!(!level || within || out >= flask.radius + rod.radius, "{at}");
             }
         }
     }

@@ -2,25 +2,20 @@
 
 use glam::{Vec2, Vec3};
 
-use super::super::controls::Controls;
+use super::super::controls::{Controls, KEYS, REACH, SLOW};
 use super::super::motion::{GAIN, Motion, SPIN_CHANGE, SPIN_GAIN};
 use super::super::obstacles::level;
 use super::super::pointing::{Ray, at_height, plane};
-use super::Held;
+use super::{Held, Kind};
 
-/// Speed of keys, m/s, and how high a body is raised at most over what it clears, m.
-const KEYS: f32 = 0.25;
+/// Speed of keys that raise, m/s, and how high a body is raised at most over what it clears, m.
 const KEYS_RAISE: f32 = 0.15;
 const RAISED: f32 = 0.6;
 /// A notch of the wheel, m.
 const NOTCH: f32 = 0.02;
-/// Share of the speed while the key for slow motion is held.
-const SLOW: f32 = 0.25;
 /// Tilt by keys, rad/s (60° a second), and the most, rad (150°).
 const TILTS: f32 = 1.047;
 const MOST_TILT: f32 = 2.618;
-/// Farthest from where the user stands, m: an arm's length and a step.
-const REACH: f32 = 0.85;
 
 /// How a pointer drags a body: over which height, m, and how far the body is beside the pointer's place there, m.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +52,7 @@ impl Held {
     /// It stays where it is, and whatever was asked of it goes on without the user.
     pub fn leave(&mut self) {
         (self.dragged, self.follows) = (false, false);
+        self.swirl.wanted = false;
         self.stop();
     }
 
@@ -79,7 +75,9 @@ impl Held {
 
     /// Takes in the keys that are held, for `h` seconds.
     pub fn control(&mut self, controls: &Controls, user: Vec2, h: f32) {
-        if self.putting.is_some() {
+        let is_put_down = self.putting.is_some();
+        self.swirl.wanted = controls.swirl && self.kind == Kind::Flask && !is_put_down;
+        if is_put_down {
             return;
         }
         let slow = if controls.slow { SLOW } else { 1.0 };

@@ -2,17 +2,18 @@
 
 use super::*;
 
-/// A rod is dipped through the mouth of a beaker, a cloth lies on the table as it wipes, and both are put down as they lay.
+/// A rod is dipped through the mouth of a beaker and leaves through it, and a cloth lies on the table as it wipes. Both are put down
+/// as they lay.
 #[test]
 fn tools_dip_and_wipe() {
-    for rod in [true, false] {
+    for [rod, raises] in [[true, true], [true, false], [false, false]] {
         let mut around = two_flasks();
         let middle = Vec3::new(0.36, TABLE + 0.0035, -0.30);
         around.things.push(if rod {
-            lying([0.0035, 0.25], middle, Moves::Freely)
+            lying([0.0035, 0.25], middle, Kind::Rod, Moves::Freely)
         } else {
             let pose = Pose::new(middle.with_y(TABLE), Quat::IDENTITY);
-            thing([0.07, 0.07, 0.02], pose, false, Moves::Freely)
+            thing([0.07, 0.07, 0.02], pose, Kind::Cloth, Moves::Freely)
         });
         let mut bench = Bench::new(around, RATES[0]);
         bench.point(middle);
@@ -31,7 +32,24 @@ fn tools_dip_and_wipe() {
             assert!(away.length() < 0.02, "{away}");
             let dips = foot(&bench).y - TABLE;
             assert!((0.005..0.06).contains(&dips), "{dips}");
-            bench.drag(middle + to - held, middle);
+            // Beyond the wall it stays in the mouth, as low as it was, until it was raised over the rim.
+            let aside = middle + to - held + 0.06 * Vec3::X;
+            bench.drag(middle + to - held, aside);
+            bench.wait(1.0);
+            let out = foot(&bench).x - 0.12;
+            assert!((0.02..0.0365).contains(&out), "{out}");
+            let dips = foot(&bench).y - TABLE;
+            assert!((0.005..0.06).contains(&dips), "{dips}");
+            if raises {
+                bench.controls.raise = 1.0;
+                bench.wait(2.0);
+                bench.controls.raise = 0.0;
+                bench.wait(1.0);
+                let out = foot(&bench).x - 0.12;
+                assert!((out - 0.06).abs() < 0.005, "{out}");
+            }
+            // Well beside the glass it rises and leaves by itself.
+            bench.drag(aside, middle);
         } else {
             bench.drag(middle, middle - 0.05 * Vec3::Z);
             bench.wait(2.0);
@@ -53,7 +71,7 @@ fn a_sash_goes_up_and_down() {
     let bar = Vec3::new(0.0, 1.05, -0.13);
     around
         .things
-        .push(lying([0.012, 1.1], bar, Moves::UpAndDown));
+        .push(lying([0.012, 1.1], bar, Kind::Sash, Moves::UpAndDown));
     let mut bench = Bench::new(around, RATES[0]);
     bench.point(bar);
     bench.wait(4.0);
@@ -103,7 +121,7 @@ fn what_is_no_number_does_no_harm() {
     bench.around.things[TARGET].pose.position = Vec3::splat(f32::NAN);
     bench.around.panel = (Pose::new(Vec3::splat(f32::NAN), Quat::IDENTITY), [0.0; 2]);
     (bench.controls, bench.dt) = (good, RATES[0]);
-    bench.around.things[TARGET].flask = false;
+    bench.around.things[TARGET].kind = Kind::Other;
     bench.wait(1.0);
     bench.release();
     bench.wait(6.0);

@@ -1,0 +1,131 @@
+//! Goggles and gloves, and a swirl.
+
+use super::*;
+
+/// With goggles in place of the target flask.
+fn with_goggles(dt: f32) -> (Bench, Vec3) {
+    let mut around = two_flasks();
+    let at = Vec3::new(0.25, TABLE, -0.30);
+    let pose = Pose::new(at, Quat::IDENTITY);
+    let sizes = [0.075, 0.075, 0.06];
+    around.things[TARGET] = thing(sizes, pose, Kind::Goggles, Moves::Freely);
+    (Bench::new(around, dt), at)
+}
+
+fn is_worn(bench: &Bench) -> bool {
+    !bench.around.things[TARGET].grips && bench.around.holds == [None; 2]
+}
+
+#[test]
+fn a_click_or_two_keys_put_goggles_on() {
+    for dt in RATES {
+        for keys in [false, true] {
+            let (mut bench, at) = with_goggles(dt);
+            bench.point(at);
+            if keys {
+                bench.controls.grip = true;
+                bench.frame();
+                bench.wait(3.0);
+                assert_eq!(bench.around.holds[1], Some(TARGET));
+                bench.controls.grip = true;
+                bench.frame();
+            } else {
+                // The hand is not there yet.
+                bench.press();
+                bench.release();
+            }
+            bench.wait(8.0);
+            assert!(is_worn(&bench), "{:?}", bench.around.things[TARGET]);
+        }
+    }
+}
+
+#[test]
+fn goggles_that_are_dragged_are_put_down() {
+    let (mut bench, at) = with_goggles(RATES[0]);
+    bench.point(at);
+    bench.wait(3.0);
+    bench.press();
+    bench.wait(1.0);
+    bench.drag(at, at - 0.08 * Vec3::Z);
+    bench.wait(2.0);
+    bench.release();
+    bench.wait(6.0);
+    assert!(!is_worn(&bench));
+    bench.stands(TARGET);
+}
+
+/// Pulled off by key, and by a click on the glove, also from a hand that is at a flask.
+#[test]
+fn gloves_are_pulled_off() {
+    for dt in RATES {
+        for [clicks, at_flask] in [[false, false], [true, false], [false, true]] {
+            let mut bench = Bench::new(two_flasks(), dt);
+            bench.around.gloves = [true; 2];
+            if at_flask {
+                bench.controls.other = true;
+                bench.point(at_source());
+                bench.wait(3.0);
+                bench.controls.other = true;
+            }
+            bench.frame();
+            assert_eq!(bench.hands.active(), Side::Right);
+            let palm = bench.now[0].stage_from_grip.position;
+            if clicks {
+                bench.point(palm);
+                let marks = bench.hands.lines();
+                let wrist = palm + 0.095 * Vec3::Z;
+                assert_eq!(marks.len(), 12);
+                let on_ring =
+                    |it: &vitriol_xr::Line| (it.from.distance(wrist) - 0.045).abs() < 1e-3;
+                assert!(marks.iter().all(on_ring), "{marks:?}");
+                bench.press();
+                bench.release();
+            } else {
+                bench.controls.gloves = true;
+                bench.frame();
+            }
+            bench.wait(8.0);
+            assert_eq!(bench.around.gloves, [false, true]);
+            assert_eq!(bench.around.holds, [None; 2]);
+            assert_eq!([bench.now[0].squeeze, bench.now[1].squeeze], [0.0; 2]);
+        }
+    }
+}
+
+/// The circle of the track `layer-and-swirl`: 20 mm, 2.5 turns a second; and the flask is put down where it was.
+#[test]
+fn a_held_flask_is_swirled() {
+    let mut bench = Bench::new(two_flasks(), 1.0 / 90.0);
+    // The circle alone: 0.31 m/s and 4.93 m/s², and as it opens up to 1 m/s² more.
+    bench.limits = [0.63 + 0.33, 3.15 + 6.0];
+    bench.take();
+    bench.controls.swirl = true;
+    bench.wait(2.0);
+    let mut places = Vec::new();
+    for _ in 0..72 {
+        bench.frame();
+        places.push(bench.around.things[SOURCE].pose.position);
+        assert!(bench.up(SOURCE).y > 0.9999);
+    }
+    let middle = places.iter().sum::<Vec3>() / 72.0;
+    let start = two_flasks().things[SOURCE].pose.position;
+    assert!((middle - start).with_y(0.0).length() < 0.003, "{middle}");
+    assert!(middle.y > TABLE + 0.005, "{middle}");
+    let mut turned = 0.0;
+    for pair in places.windows(2) {
+        let [a, b] = [pair[0] - middle, pair[1] - middle];
+        assert!((b.length() - 0.02).abs() < 0.003, "{}", b.length());
+        turned += a.angle_between(b);
+    }
+    // 71 frames of a ninetieth of a second, of two turns.
+    let turns = turned / TAU;
+    assert!((turns - 2.5 * 71.0 / 90.0).abs() < 0.1, "{turns}");
+    bench.controls.swirl = false;
+    bench.wait(1.0);
+    bench.release();
+    bench.wait(4.0);
+    bench.stands(SOURCE);
+    let back = bench.around.things[SOURCE].pose.position;
+    assert!((back - start).length() < 0.005, "{back}");
+}
