@@ -138,7 +138,9 @@ impl Desk {
             #[cfg(feature = "gamepad")]
             gamepad: gamepad::Gamepad::open(),
             inputs: Inputs::default(),
-            hands: Hands::new(&USER, SCENE_TABLE).with_toggles(spec.toggles),
+            hands: Hands::new(&USER, SCENE_TABLE)
+                .with_choice()
+                .with_toggles(spec.toggles),
             view,
             // No frame takes simulated time before the first one is shown.
             around: Around {

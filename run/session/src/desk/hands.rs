@@ -26,7 +26,7 @@ use gloves::{Pull, other};
 use hand::{Mover, State, Taking};
 use held::Drag;
 use obstacles::{hover, level};
-use pointing::{Ray, by_place, by_ray, grip_at, nearest, orientation, outwards};
+use pointing::{Ray, by_place, by_ray, grip_at, nearest, orientation, outwards, pours_clear};
 use press::Press;
 
 /// Interaction profile of these hands in a recording. It is ours: OpenXR has none for a mouse.
@@ -48,6 +48,8 @@ pub struct Hands {
     active: Side,
     /// A click takes, and another one puts down.
     toggles: bool,
+    /// The pointer takes a flask with the hand that a pour does not run over. Not once the user has changed hands.
+    chooses: bool,
     /// The eyes, and right and ahead, as the session began.
     head: Vec3,
     ahead: [Vec3; 2],
@@ -92,6 +94,7 @@ impl Hands {
             movers: Side::BOTH.map(rest),
             active: Side::Right,
             toggles: false,
+            chooses: false,
             head: eyes,
             ahead,
             scene: 0,
@@ -112,6 +115,12 @@ impl Hands {
             lines: Vec::new(),
             profile: PROFILE.into(),
         }
+    }
+
+    /// These hands, of which the pointer takes a flask with that over which no pour into its neighbour runs, until the user changes hands.
+    pub fn with_choice(mut self) -> Self {
+        self.chooses = true;
+        self
     }
 
     /// These hands, of which a click takes hold and another one puts down, if it `toggles`; else a thing is held as long as the button.
@@ -153,6 +162,7 @@ impl Hands {
         if controls.other {
             self.movers[self.active as usize].leave();
             self.active = other(self.active);
+            self.chooses = false;
         }
         let user = level(self.head);
         for mover in &mut self.movers {
@@ -249,6 +259,18 @@ impl Hands {
             true => by_ray.map(|it| it.thing),
             false => by_place(level(self.spot), around),
         };
+        let chooses = self.chooses && self.points && self.press.is_none();
+        if chooses && self.movers.iter().all(Mover::is_free) {
+            let clear = self
+                .picked
+                .and_then(|it| pours_clear(around, it, controls.right));
+            if clear.is_some_and(|side| side != self.active) {
+                let left = self.active;
+                self.movers[left as usize].target.position =
+                    rest(left, self.head, self.ahead, around.table);
+                self.active = other(left);
+            }
+        }
         if !self.on_panel && (controls.pointed || walks) && self.press.is_none() {
             self.movers[self.active as usize].target = self.hovering(around);
         }

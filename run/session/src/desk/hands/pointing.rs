@@ -189,6 +189,27 @@ pub(super) fn grip_at(
     stands.into_iter().find(apart).or(Some(stands[0]))
 }
 
+/// The hand that takes a flask so that what is poured into the nearest other one does not run over it: that of the other side. `None` of
+/// what is no flask, or the only one.
+pub(super) fn pours_clear(around: &Around, index: usize, right: Vec3) -> Option<Side> {
+    let from = around
+        .things
+        .get(index)
+        .filter(|it| it.is_flask())?
+        .pose
+        .position;
+    let others = around.things.iter().enumerate();
+    let ways = others
+        .filter(|&(other, it)| other != index && it.is_flask() && is_of_use(it, around.table))
+        .map(|(_, it)| it.pose.position - from);
+    let nearest = ways.min_by(|a, b| a.length().total_cmp(&b.length()))?;
+    Some(if nearest.dot(right) > 0.0 {
+        Side::Left
+    } else {
+        Side::Right
+    })
+}
+
 /// The part of `vector` across the unit vector `axis`, as a unit vector.
 fn across(vector: Vec3, axis: Vec3) -> Vec3 {
     let part = vector - vector.dot(axis) * axis;

@@ -139,6 +139,42 @@ fn keys_alone_pour() {
     }
 }
 
+/// The pointer takes each flask with the hand from which a pour into the other one leads away, and liquid that leaves the lip falls beside
+/// the palm, by more than half of a hand's breadth of 84 mm. After `Tab` it is the user who says which hand.
+#[test]
+fn the_hand_beside_which_a_pour_falls_takes_a_flask() {
+    for (thing, at, side, way) in [
+        (SOURCE, at_source(), Side::Left, -1.0),
+        (TARGET, at_target(), Side::Right, 1.0),
+    ] {
+        let mut bench = Bench::new(two_flasks(), RATES[0]);
+        bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
+        bench.point(at);
+        bench.wait(3.0);
+        bench.press();
+        bench.wait(1.0);
+        assert_eq!(bench.around.holds[side as usize], Some(thing));
+        bench.controls.wheel = 5.0;
+        bench.wait(2.0);
+        bench.tilt(way, 1.6);
+        let it = &bench.around.things[thing];
+        let lip = it
+            .pose
+            .transform_point(Vec3::new(-way * it.rim, it.height, 0.0));
+        let palm = bench.now[side as usize].stage_from_grip.position;
+        let apart = (lip - palm).with_y(0.0).length();
+        assert!(apart > 0.05, "{side:?}: {apart} m");
+    }
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
+    bench.controls.other = true;
+    bench.point(at_target());
+    bench.wait(3.0);
+    bench.press();
+    bench.wait(1.0);
+    assert_eq!(bench.around.holds, [Some(TARGET), None]);
+}
+
 /// Tilted with its lip lower than the other's rim, it comes over that by keys that are only tapped.
 #[test]
 fn taps_bring_a_tilted_flask_over_a_rim() {
