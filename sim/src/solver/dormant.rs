@@ -81,6 +81,7 @@ impl Solver {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::chemistry::transport::{Diffusivities, Potential, turnover};

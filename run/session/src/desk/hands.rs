@@ -283,11 +283,11 @@ impl Hands {
         // After a tilt the pointer is elsewhere: what it drags goes on from where it is.
         let leapt = controls.pointed && std::mem::take(&mut self.tilted);
         match &mut self.movers[self.active as usize].state {
-            State::Reaching(taking) | State::Closing { taking, .. } if controls.pointed => {
-                // What is dropped as soon as it is held is no longer dragged.
-                if !taking.drops {
-                    taking.to = Some(controls.ray);
-                }
+            // What is dropped as soon as it is held is no longer dragged.
+            State::Reaching(taking) | State::Closing { taking, .. }
+                if controls.pointed && !taking.drops =>
+            {
+                taking.to = Some(controls.ray);
             }
             State::Holding(held) => {
                 let on_panel = self.on_panel && !held.dragged;
