@@ -164,11 +164,18 @@ impl Desk {
         self
     }
 
-    /// Takes the events of gamepad, mouse and keyboard; `false` once the window is closed. Of those before the first frame, which show nothing,
-    /// only the pointer's place counts.
+    /// Takes the events of gamepad, mouse and keyboard; `false` once the window is closed. Of those before the first frame, which show
+    /// nothing, only the pointer's place counts.
     fn take_events(&mut self) -> bool {
         #[cfg(feature = "gamepad")]
-        self.gamepad.poll(&mut self.inputs);
+        {
+            let begun = self.index > 0;
+            self.gamepad.poll(|input| {
+                if begun || matches!(input, Input::Axes(_)) {
+                    self.inputs.take(input);
+                }
+            });
+        }
         loop {
             match self.events.try_recv() {
                 Ok(input) if self.index > 0 || matches!(input, Input::Pointer(_)) => {

@@ -10,7 +10,7 @@ const LET_GO: f32 = 0.4;
 /// How a hand grips.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Grip {
-    /// As long as squeeze or trigger is held
+    /// As long as squeeze, trigger or the mouse's main button is held
     #[default]
     Hold,
     /// From one press of them to the next

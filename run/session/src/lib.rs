@@ -1,4 +1,4 @@
-//! In the headset: the frame loop that feeds the flasks from a live session.
+//! A session in a headset or a window: the frame loop that feeds the flasks from live hands.
 //!
 //! `session` is the loop, over the trait [`Headset`](vitriol_xr::Headset) that an OpenXR session, the stand-in and a
 //! window implement. The other files hold its parts, which do not depend on it. `docs/headset.md` lists what happens in a

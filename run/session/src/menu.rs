@@ -74,7 +74,7 @@ pub fn mouse_lines() -> String {
         ("arrows", "move the hand; with Ctrl the view"),
         ("Space", "takes and puts down, without the mouse"),
         ("Tab", "the other hand"),
-        ("G", "gloves on or off"),
+        ("G", "pulls the other hand's glove off"),
         ("R, V", "the panel, the bench from the side; again: back"),
         ("F11", "the whole screen"),
         ("Esc", "end, pressed twice"),

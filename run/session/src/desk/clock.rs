@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 /// Lowest and highest rate of a display that is believed, Hz.
 const RATES: [f64; 2] = [20.0, 1000.0];
-/// The rate of a display that does not tell, Hz: that of most.
+/// The rate of a display that reports none, Hz: that of most.
 const USUAL: f64 = 60.0;
 /// Highest rate of frames, Hz: a scene has 90 steps a second, and a frame without a step shows nothing that was not there before.
 const MOST: f64 = 90.0;
@@ -14,7 +14,7 @@ pub fn rate(reported: Option<u32>) -> f64 {
     let told = reported.map(|reported| 1e-3 * f64::from(reported));
     let of_display = told.filter(|rate| (RATES[0]..RATES[1]).contains(rate));
     let rate = of_display.unwrap_or(USUAL);
-    // A display that says 90.1 Hz means 90.
+    // A display that reports 90.1 Hz means 90.
     rate / (rate / (MOST + 1.0)).ceil()
 }
 

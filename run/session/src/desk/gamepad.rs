@@ -2,7 +2,7 @@
 
 use gilrs::{Axis, Button, EventType, Gilrs, GilrsBuilder};
 
-use super::input::{Axes, DeskKey, Input, Inputs};
+use super::input::{Axes, DeskKey, Input};
 
 /// Deflection of a stick, of 1, up to which it counts as let go. Our choice: a hand must not drift where a stick does not return to its
 /// middle, and a thin stream needs small deflections; XInput's 0.24 of the left stick would take a quarter of its way.
@@ -32,11 +32,11 @@ impl Gamepad {
         }
     }
 
-    /// Gives `inputs` what was done since the last frame; does not wait.
-    pub fn poll(&mut self, inputs: &mut Inputs) {
+    /// Hands over what was done since the last frame; does not wait.
+    pub fn poll(&mut self, mut takes: impl FnMut(Input)) {
         while let Some(event) = self.source.as_mut().and_then(Gilrs::next_event) {
             for input in self.pad.take(event.event) {
-                inputs.take(input);
+                takes(input);
             }
         }
     }

@@ -155,6 +155,9 @@ impl Hands {
             0.0
         };
         if dt == 0.0 {
+            // Display time goes on: a button that was let go must not fill the panel's ring.
+            let press = self.press.take();
+            self.press = press.and_then(|it| it.after(false, controls.presses(), 0.0));
             self.pending = Some(controls);
             return self.frame();
         }
@@ -298,7 +301,8 @@ impl Hands {
                     held.point(controls.ray, controls.away, user);
                 }
                 if !held.is_put_down() {
-                    held.nudge(controls.wheel, controls.tilt_drag);
+                    let share = if controls.slow { SLOW } else { 1.0 };
+                    held.nudge(share * controls.wheel, share * controls.tilt_drag);
                 }
             }
             _ => {}
@@ -325,7 +329,7 @@ impl Hands {
         if let Some(press) = self.press.take().filter(|it| free(self, it.side)) {
             let palm = self.movers[press.side as usize].pose().position;
             let clear = nearest(around, palm, None) > press::CLEAR;
-            self.press = press.after(clear, controls.pressed && !controls.release, dt);
+            self.press = press.after(clear, controls.presses(), dt);
         }
         let clicked = controls.press || controls.panel_press;
         let presser = self.presser();
@@ -368,7 +372,7 @@ impl Hands {
                         drag,
                         to: None,
                         stays,
-                        drops: !stays && let_go,
+                        drops: (toggles && picked.is_some_and(goggles)) || (!stays && let_go),
                     });
                 }
             }

@@ -82,7 +82,7 @@ pub enum DeskKey {
     Grip,
     /// The other hand becomes the active one.
     OtherHand,
-    /// Gloves on or off.
+    /// The active hand pulls the other one's glove off.
     Gloves,
     /// While it is held all is slower.
     Slow,
@@ -297,6 +297,7 @@ impl Inputs {
             other: edge(DeskKey::OtherHand),
             gloves: edge(DeskKey::Gloves),
             panel_press: edge(DeskKey::Press),
+            panel_down: self.is_held(DeskKey::Press),
         }
     }
 }

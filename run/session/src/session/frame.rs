@@ -123,7 +123,9 @@ impl Session {
             headset.request_rate(rate).map_err(blame)?;
         }
         // 11. Where the bodies are, for who points at them; and what the lenses hide.
-        headset.around(self.bench_around());
+        if self.pointer {
+            headset.around(self.bench_around());
+        }
         self.benches.take_mask(headset, &no_frame)
     }
 

@@ -46,6 +46,8 @@ pub struct Controls {
     pub other: bool,
     /// The key that presses what the pointer is at on the panel was pressed since the last frame.
     pub panel_press: bool,
+    /// That key is down.
+    pub panel_down: bool,
     /// The key that swirls a held flask is down.
     pub swirl: bool,
     /// The key that pulls the other hand's glove off was pressed since the last frame.
@@ -53,6 +55,11 @@ pub struct Controls {
 }
 
 impl Controls {
+    /// Whether what was pressed on the panel is still held, by button or key.
+    pub(super) fn presses(&self) -> bool {
+        self.panel_down || (self.pressed && !self.release)
+    }
+
     /// These controls with numbers only, and in their range. Rays and directions that are none are as in `last`.
     pub(super) fn sound(&self, last: &Self) -> Self {
         let ray = unit(self.ray.1).filter(|_| self.ray.0.is_finite());

@@ -174,8 +174,8 @@ impl Bench {
         reached.unwrap_or(way[0])
     }
 
-    /// The place that a rod of that radius goes to if the pointer wants it at `aim`: while its lower end is in a flask, it stays in the
-    /// mouth of that, until the pointer is well beside the flask or the rod was raised over the rim.
+    /// Where a rod of that radius goes if the pointer wants it at `aim`. While its lower end is in a flask it stays in the mouth, until the
+    /// pointer is well beside the flask or the rod is over the rim.
     pub fn within_mouth(&self, end: Vec3, aim: Vec2, radius: f32) -> Vec2 {
         let mut columns = self.columns.iter();
         let flask = columns.find(|it| it.is_entered(level(end)) && end.y < it.top);

@@ -28,6 +28,22 @@ fn what_comes_while_time_is_held_waits_for_it() {
     assert_eq!(bench.hands.active(), Side::Left);
 }
 
+/// A key holds a button of the panel, and one that is let go while time is held is let go: the panel's ring fills in display time.
+#[test]
+fn a_button_of_the_panel_is_held_as_long_as_the_key() {
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    bench.wait(2.0);
+    bench.point(Vec3::new(0.1, 1.2, -0.80));
+    (bench.controls.panel_press, bench.controls.panel_down) = (true, true);
+    bench.wait(1.5);
+    assert_eq!(bench.now[1].trigger, 1.0);
+    bench.controls.panel_down = false;
+    for _ in 0..20 {
+        bench.now = bench.hands.advance(&bench.controls, &bench.around, 0.0);
+    }
+    assert_eq!(bench.now[1].trigger, 0.0);
+}
+
 #[test]
 fn a_hand_that_is_to_let_go_before_it_holds_does() {
     for toggles in [false, true] {

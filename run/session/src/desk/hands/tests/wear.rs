@@ -40,6 +40,19 @@ fn a_click_or_two_keys_put_goggles_on() {
     }
 }
 
+/// Where clicks toggle, one click still puts them on, wherever the pointer goes meanwhile.
+#[test]
+fn one_click_puts_goggles_on_where_clicks_toggle() {
+    let (mut bench, at) = with_goggles(RATES[0]);
+    bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_toggles(true);
+    bench.point(at);
+    bench.press();
+    bench.release();
+    bench.point(at - 0.05 * Vec3::X);
+    bench.wait(8.0);
+    assert!(is_worn(&bench), "{:?}", bench.around.things[TARGET]);
+}
+
 #[test]
 fn goggles_that_are_dragged_are_put_down() {
     let (mut bench, at) = with_goggles(RATES[0]);
