@@ -3,7 +3,7 @@
 //! One frame, in this order: [`next`](Headset::next) (wait, begin, sync actions, locate),
 //! the simulation's steps, [`acquire`](Headset::acquire), [`locate_views`](Headset::locate_views) as
 //! late as can be, the picture's submission, [`end`](Headset::end). Each frame that `next` gives is
-//! ended, drawn or not. Nothing between them waits for the GPU.
+//! ended, drawn or not. Nothing between them waits for the GPU. Methods with a body are of what not all have.
 
 use glam::Vec3;
 use vitriol_gpu::{Gpu, GpuError, Image};
@@ -30,11 +30,15 @@ pub trait Headset {
     }
 
     /// The second pair of pictures, where the headset has one.
-    fn inset(&self) -> Option<Inset>;
+    fn inset(&self) -> Option<Inset> {
+        None
+    }
 
     /// Corners of triangles that no eye sees, three each, for the left and the right eye: 0 to 1
     /// from the picture's upper left. Empty where the runtime gives none.
-    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2];
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
+        [Vec::new(), Vec::new()]
+    }
 
     /// Runtime and device in a line, for people.
     fn name(&self) -> &str;
@@ -60,7 +64,9 @@ pub trait Headset {
 
     /// The user's gaze at the time for which the eyes were located last: from between them along -Z, in the stage. `None` where it is not
     /// known, or not asked for.
-    fn gaze(&self) -> Option<Pose>;
+    fn gaze(&self) -> Option<Pose> {
+        None
+    }
 
     /// Takes the bodies at the bench as they are before the next frame.
     fn around(&mut self, _around: Around) {}
@@ -82,20 +88,26 @@ pub trait Headset {
     ///
     /// # Errors
     /// As for [`Headset::next`].
-    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
+    fn vibrate(&mut self, _side: Side, _amplitude: f32) -> Result<(), HeadsetError> {
+        Ok(())
+    }
 
     /// Call it when the device is lost ([`Gpu::is_lost`]), and with it all images; a frame that is open is not ended. The next turns are
     /// [`Turn::Lost`], and [`Turn::Renewed`] once there is another device.
     fn lose_device(&mut self);
 
     /// Display rates that can be asked for, Hz; empty where there is no choice.
-    fn rates(&self) -> &[f32];
+    fn rates(&self) -> &[f32] {
+        &[]
+    }
 
     /// Asks for one of them. The frames' periods show when it has come into effect.
     ///
     /// # Errors
     /// As for [`Headset::next`].
-    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError>;
+    fn request_rate(&mut self, _rate: f32) -> Result<(), HeadsetError> {
+        Ok(())
+    }
 
     /// Asks the runtime for the end; [`Turn::Ended`] follows some turns later.
     ///

@@ -15,8 +15,8 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 use vitriol_run::Failure;
 use vitriol_xr::{
-    Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Inset, Line, Pose, PoseFrame,
-    SessionState, Shown, Side, Targets, Turn, View,
+    Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Line, Pose, PoseFrame,
+    SessionState, Shown, Targets, Turn, View,
 };
 
 use self::clock::{Clock, rate};
@@ -26,6 +26,7 @@ use self::view::Viewpoint;
 use crate::decision::Decision;
 use crate::mirror::{Display, Extent, Opening, Window};
 use crate::placement::{SCENE_TABLE, SEATED};
+use crate::reopening::Reopening;
 use crate::stand_in::EPOCH;
 
 /// How a desk's window opens, and what a click does.
@@ -59,10 +60,7 @@ pub struct Desk {
     index: u64,
     leaving: bool,
     name: String,
-    /// Opens another device where the present one is lost.
-    reopens: Option<Reopens>,
-    /// Whether it is.
-    lost: bool,
+    reopening: Reopening,
 }
 
 /// The head of who sits at the bench and has these hands: it stays, so that what is worn comes to it. The eye of the window goes round the
@@ -76,9 +74,6 @@ const USER: Pose = Pose::new(
 /// What to do where there is no screen.
 const REMEDY: &str = "a desk needs a screen; start it from a graphical login, or simulate recorded hands \
                       without one by `vitriol replay`";
-
-/// Opens a device.
-type Reopens = Box<dyn FnMut() -> Result<Gpu, GpuError>>;
 
 /// Opens a window and waits for it; its keys decide as the mirror's do. The window is for
 /// [`Session::mirrored`](crate::session::Session::mirrored).
@@ -153,14 +148,13 @@ impl Desk {
             leaving: false,
             name: format!("a window at {rate:.0} Hz on {}", gpu.info().name),
             gpu: gpu.clone(),
-            reopens: None,
-            lost: false,
+            reopening: Reopening::default(),
         }
     }
 
     /// This desk, which goes on with the device that `reopens` opens where its own is lost.
     pub fn reopening(mut self, reopens: impl FnMut() -> Result<Gpu, GpuError> + 'static) -> Self {
-        self.reopens = Some(Box::new(reopens));
+        self.reopening = Reopening::by(reopens);
         self
     }
 
@@ -231,14 +225,6 @@ impl Headset for Desk {
         self.wanted
     }
 
-    fn inset(&self) -> Option<Inset> {
-        None
-    }
-
-    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
-        [Vec::new(), Vec::new()]
-    }
-
     fn name(&self) -> &str {
         &self.name
     }
@@ -247,10 +233,7 @@ impl Headset for Desk {
         if self.leaving {
             return Ok(Turn::Ended);
         }
-        if std::mem::take(&mut self.lost) {
-            let reopens = self.reopens.as_mut();
-            let lost = GpuError::DeviceLost { last_pass: None };
-            let gpu = reopens.ok_or(lost).and_then(|reopens| reopens())?;
+        if let Some(gpu) = self.reopening.next()? {
             self.targets = targets(&gpu)?;
             self.gpu = gpu;
             return Ok(Turn::Renewed);
@@ -289,10 +272,6 @@ impl Headset for Desk {
         Ok([view; 2])
     }
 
-    fn gaze(&self) -> Option<Pose> {
-        None
-    }
-
     fn around(&mut self, around: Around) {
         self.around = around;
     }
@@ -305,20 +284,8 @@ impl Headset for Desk {
         Ok(())
     }
 
-    fn vibrate(&mut self, _side: Side, _amplitude: f32) -> Result<(), HeadsetError> {
-        Ok(())
-    }
-
     fn lose_device(&mut self) {
-        self.lost = true;
-    }
-
-    fn rates(&self) -> &[f32] {
-        &[]
-    }
-
-    fn request_rate(&mut self, _rate: f32) -> Result<(), HeadsetError> {
-        Ok(())
+        self.reopening.lose();
     }
 
     fn request_exit(&mut self) -> Result<(), HeadsetError> {

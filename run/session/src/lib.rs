@@ -28,6 +28,7 @@ pub mod panel;
 pub mod picture;
 pub mod placement;
 pub mod rates;
+mod reopening;
 pub mod session;
 pub mod sign;
 pub mod stand_in;

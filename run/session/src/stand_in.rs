@@ -8,12 +8,13 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::panel::PANEL;
+use super::reopening::Reopening;
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
 use vitriol_xr::track::{Track, TrackSource};
 use vitriol_xr::{
-    Fov, Headset, HeadsetError, HeadsetFrame, Inset, Pose, PoseFrame, PoseSource, SessionState,
-    Shown, Side, Targets, Turn, View, depth_extent,
+    Fov, Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, PoseSource, SessionState, Shown,
+    Side, Targets, Turn, View, depth_extent,
 };
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand adults
@@ -87,14 +88,8 @@ pub struct StandIn {
     pub felt: [f32; 2],
     compositor: Option<Compositor>,
     name: String,
-    /// Opens another device where the present one is lost.
-    reopens: Option<Reopens>,
-    /// Whether it is.
-    lost: bool,
+    reopening: Reopening,
 }
-
-/// Opens a device.
-type Reopens = Box<dyn FnMut() -> Result<Gpu, GpuError>>;
 
 /// Waits for pictures on a thread of its own, since the frame loop must not.
 struct Compositor {
@@ -133,14 +128,13 @@ impl StandIn {
                 gpu.info().name
             ),
             spec,
-            reopens: None,
-            lost: false,
+            reopening: Reopening::default(),
         })
     }
 
     /// This stand-in, which goes on with the device that `reopens` opens where its own is lost.
     pub fn reopening(mut self, reopens: impl FnMut() -> Result<Gpu, GpuError> + 'static) -> Self {
-        self.reopens = Some(Box::new(reopens));
+        self.reopening = Reopening::by(reopens);
         self
     }
 
@@ -249,14 +243,6 @@ impl Headset for StandIn {
         self.spec.extent
     }
 
-    fn inset(&self) -> Option<Inset> {
-        None
-    }
-
-    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
-        [Vec::new(), Vec::new()]
-    }
-
     fn name(&self) -> &str {
         &self.name
     }
@@ -265,10 +251,7 @@ impl Headset for StandIn {
         if self.leaving {
             return Ok(Turn::Ended);
         }
-        if std::mem::take(&mut self.lost) {
-            let reopens = self.reopens.as_mut();
-            let lost = GpuError::DeviceLost { last_pass: None };
-            let gpu = reopens.ok_or(lost).and_then(|reopens| reopens())?;
+        if let Some(gpu) = self.reopening.next()? {
             self.move_to(&gpu)?;
             return Ok(Turn::Renewed);
         }
@@ -326,7 +309,7 @@ impl Headset for StandIn {
     }
 
     fn lose_device(&mut self) {
-        self.lost = true;
+        self.reopening.lose();
     }
 
     fn rates(&self) -> &[f32] {
