@@ -54,6 +54,20 @@ impl Spread {
 mod tests {
     use super::*;
 
+    /// Of 2,000 values by nearest rank: the 1,000th, 1,900th, 1,980th, 1,998th and last.
+    #[test]
+    fn a_spread_has_five_ranks() {
+        let values: Vec<f64> = (1..=2000).map(f64::from).collect();
+        let spread = Spread {
+            p50: 1000.0,
+            p95: 1900.0,
+            p99: 1980.0,
+            p999: 1998.0,
+            max: 2000.0,
+        };
+        assert_eq!(Spread::of(&values), Some(spread));
+    }
+
     #[test]
     fn percentiles_are_measured_values() {
         let values: Vec<f64> = (1..=100).rev().map(f64::from).collect();

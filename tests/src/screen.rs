@@ -24,12 +24,8 @@ pub mod key {
     pub const SPACE: u32 = 0x20;
     /// Tab.
     pub const TAB: u32 = 0xff09;
-    /// Enter.
-    pub const ENTER: u32 = 0xff0d;
     /// Escape.
     pub const ESCAPE: u32 = 0xff1b;
-    /// Home.
-    pub const HOME: u32 = 0xff50;
     /// The arrow to the left.
     pub const LEFT: u32 = 0xff51;
     /// The arrow that points up.
@@ -38,16 +34,8 @@ pub mod key {
     pub const RIGHT: u32 = 0xff53;
     /// The arrow that points down.
     pub const DOWN: u32 = 0xff54;
-    /// Page up.
-    pub const PAGE_UP: u32 = 0xff55;
-    /// Page down.
-    pub const PAGE_DOWN: u32 = 0xff56;
-    /// F11.
-    pub const F11: u32 = 0xffc8;
     /// Shift, of the left hand.
     pub const SHIFT: u32 = 0xffe1;
-    /// Control, of the left hand.
-    pub const CONTROL: u32 = 0xffe3;
 }
 
 /// A button of the mouse.

@@ -49,8 +49,6 @@ pub struct Thing {
     /// Whether a hand can close on it: it is not fixed, not broken and not worn. A box of gloves stays where it is, and a hand that closes
     /// in it has a glove on.
     pub grips: bool,
-    /// How it may be moved.
-    pub moves: Moves,
 }
 
 impl Thing {
@@ -73,20 +71,8 @@ pub enum Kind {
     Goggles,
     /// A box of gloves: a hand that closes in it has one on.
     Gloves,
-    /// The sash of a fume hood.
+    /// The sash of a fume hood: it goes up and down only.
     Sash,
-    /// Something else.
-    Other,
-}
-
-/// How a thing may be moved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Moves {
-    /// As the hand that holds it.
-    #[default]
-    Freely,
-    /// Up and down only, as a sash.
-    UpAndDown,
 }
 
 /// A line to be drawn with the picture, e.g. where a pour would fall. In the headset's stage.

@@ -105,18 +105,19 @@ fn look() -> Findings {
     Findings {
         can_replay,
         can_enter_vr,
-        screen: cfg!(feature = "session").then(has_screen),
+        screen: screen(),
         devices,
         openxr,
         missing,
     }
 }
 
-/// Whether there is a screen for the window of `vitriol desk`: on Linux that of a server, which it does not ask.
-fn has_screen() -> bool {
-    let is_set = |name: &str| std::env::var_os(name).is_some();
-    let on_wayland = cfg!(feature = "wayland") && is_set("WAYLAND_DISPLAY");
-    !cfg!(target_os = "linux") || is_set("DISPLAY") || on_wayland
+/// Whether there is a screen for the window of `vitriol desk`, if the build has that.
+fn screen() -> Option<bool> {
+    #[cfg(feature = "session")]
+    return Some(vitriol_session::mirror::names_screen());
+    #[cfg(not(feature = "session"))]
+    None
 }
 
 /// The parts of OpenXR that are there, and those that are missing.

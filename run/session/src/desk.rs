@@ -138,11 +138,8 @@ impl Desk {
                 .with_toggles(spec.toggles),
             view,
             // No frame takes simulated time before the first one is shown.
-            around: Around {
-                pace: 1.0,
-                table: SCENE_TABLE,
-                ..Around::default()
-            },
+            // Its longest frame is 0: no hand moves before the bench is there.
+            around: Around::default(),
             clock: Clock::new(rate),
             index: 0,
             leaving: false,

@@ -13,8 +13,8 @@ use vitriol_shaders::Library;
 
 pub use self::shrink::{LONGEST, Shrink, Shrunk};
 use self::window::Say;
-pub use self::window::Window;
 pub(crate) use self::window::{Display, Extent, Opening};
+pub use self::window::{Window, names_screen};
 use super::info::Info;
 
 /// Shows the left eye's picture in a window on the computer, 30 times a second of display time; at a desk, whose only picture that is, as

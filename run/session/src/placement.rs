@@ -105,9 +105,8 @@ impl Placement {
     /// it; then the last frame is forgotten, since between it and the next one lies the leap.
     pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Action> {
         let interrupted = self.interrupted.take();
-        let is_gone = |then| !self.fixed && is_elsewhere(&then, &now.stage_from_view);
-        let elsewhere = interrupted.is_some_and(is_gone);
-        if asked || elsewhere || !self.is_known() {
+        let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
+        if (!self.fixed && (asked || elsewhere)) || !self.is_known() {
             self.stage_from_scene = Some(before(&now.stage_from_view, self.posture, self.chosen));
         } else if interrupted.is_none() {
             return None;
@@ -233,17 +232,21 @@ mod tests {
         }
     }
 
-    /// An eye that goes round the bench does not take it along, nor after an interruption.
+    /// An eye that goes round the bench does not take it along, nor after an interruption, nor where that is asked for.
     #[test]
     fn a_bench_of_the_scene_stays() {
         let mut placement = Placement::of_scene();
-        for far in [0.0, 2.0] {
+        for (far, asked) in [(0.0, false), (2.0, false), (0.0, true)] {
             placement.last = Some(seen(head(1.2, 0.0, 0.0)));
             if far > 0.0 {
                 placement.interrupt();
             }
-            placement.place(&seen(head(1.2 + far, 2.0, 0.0)), false);
-            assert_eq!(placement.stage_from_scene(), Pose::IDENTITY, "{far}");
+            placement.place(&seen(head(1.2 + far, 2.0, 0.0)), asked);
+            assert_eq!(
+                placement.stage_from_scene(),
+                Pose::IDENTITY,
+                "{far} {asked}"
+            );
         }
     }
 

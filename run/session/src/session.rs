@@ -354,7 +354,6 @@ impl Session {
                     }
                 }
                 Turn::Paused { cause } => self.pause(match cause {
-                    _ if self.pointer => "paused",
                     Pause::Off => "the headset is off",
                     Pause::Unseen => "the headset is not seen yet",
                 })?,
@@ -362,7 +361,7 @@ impl Session {
                     if !std::mem::replace(&mut lost, true) {
                         tracing::warn!("{cause}; the experiment waits where it is");
                     }
-                    self.pause(self.lost())?;
+                    self.pause("the headset is lost")?;
                 }
                 Turn::Renewed => {
                     lost = false;

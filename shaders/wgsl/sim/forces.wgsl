@@ -189,6 +189,7 @@ fn renew(i: u32, tag: vec2<u32>, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
 fn claim(identity: u32, i: u32, what: u32) {
     let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], what | (i + 1u));
     if (other != 0u) { atomicAdd(&counters.bubbles_refused, 1u); }
+    // Of 64 places each (`GROUP` in `solver/bubbles.rs`).
     atomicStore(&claims[SLOTS + LIVE_GROUPS], SLOTS / 64u);
 }
 

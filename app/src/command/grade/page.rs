@@ -22,7 +22,7 @@ pub fn html(class: &Class, words: &Words) -> String {
         words,
         scenes: class.scenes.len() > 1,
         lessons: !class.lessons.is_empty(),
-        verified: class.lines.iter().any(|it| it.verified.is_some()),
+        verified: class.is_verified(),
     };
     let body = html! {
         main {

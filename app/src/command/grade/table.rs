@@ -104,9 +104,22 @@ impl Status {
             Self::Failed => "failed",
         }
     }
+
+    /// As for people.
+    fn shown(self) -> &'static str {
+        match self {
+            Self::Otherwise => "not graded",
+            it => it.name(),
+        }
+    }
 }
 
 impl Class {
+    /// Whether simulations were asked for.
+    pub fn is_verified(&self) -> bool {
+        self.lines.iter().any(|it| it.verified.is_some())
+    }
+
     /// Adds the lines of a track, whose page has that name.
     pub fn add(
         &mut self,
@@ -204,7 +217,6 @@ pub enum Ended<'a> {
 /// The table for people.
 pub fn text(class: &Class) -> String {
     let lessons = !class.lessons.is_empty();
-    let verified = class.lines.iter().any(|it| it.verified.is_some());
     let points = match lessons {
         true => "program's points",
         false => "points",
@@ -227,8 +239,7 @@ pub fn text(class: &Class) -> String {
         let points = match (line.points, line.of) {
             (Some(_), Some(0)) => "-".into(),
             (Some(points), Some(of)) => format!("{points} of {of}"),
-            _ if line.status == Status::Otherwise => "not graded".into(),
-            _ => line.status.name().into(),
+            _ => line.status.shown().into(),
         };
         let mut notes = line.caps.clone();
         let lesson = line.lesson.as_ref();
@@ -257,7 +268,13 @@ pub fn text(class: &Class) -> String {
         }
     }
     let mut text = String::new();
-    let shown = [true, class.scenes.len() > 1, lessons, true, verified];
+    let shown = [
+        true,
+        class.scenes.len() > 1,
+        lessons,
+        true,
+        class.is_verified(),
+    ];
     for [cells @ .., notes] in &rows {
         // Writing to a string cannot fail.
         for ((cell, width), _) in cells.iter().zip(widths).zip(shown).filter(|it| it.1) {

@@ -61,6 +61,21 @@ fn lessons_are_listed_shown_and_checked() {
     refuses(here, &in_french, 2, &["fr", "en, de, es, zh"]);
 }
 
+/// A window needs a screen. An empty name is none, as winit takes it.
+#[cfg(target_os = "linux")]
+#[test]
+fn doctor_says_whether_there_is_a_screen() {
+    for (display, there) in [(None, false), (Some(""), false), (Some(":9"), true)] {
+        let mut doctor = std::process::Command::new(env!("CARGO_BIN_EXE_vitriol"));
+        doctor.args(["doctor", "--json"]).env_remove("DISPLAY");
+        doctor.env_remove("WAYLAND_DISPLAY");
+        doctor.envs(display.map(|it| ("DISPLAY", it)));
+        let found: serde_json::Value =
+            serde_json::from_slice(&doctor.output().unwrap().stdout).unwrap();
+        assert_eq!(found["screen"], there, "{display:?}");
+    }
+}
+
 #[test]
 fn doctor_says_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();

@@ -9,7 +9,7 @@ use std::thread;
 
 use uuid::Uuid;
 
-use super::schema::{VERSION, WITHOUT_CAPS};
+use super::schema::VERSION;
 use super::{Added, Store, StoreError};
 use crate::{Cap, Entry, Points, Score, example};
 
@@ -172,7 +172,7 @@ fn an_older_file_gets_its_caps() {
     store.connection.execute_batch("DROP TABLE caps").unwrap();
     store
         .connection
-        .pragma_update(None, "user_version", WITHOUT_CAPS)
+        .pragma_update(None, "user_version", 1)
         .unwrap();
     drop(store);
 

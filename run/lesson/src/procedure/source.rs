@@ -41,19 +41,22 @@ impl<'t> Source<'t> {
             faults: Vec::new(),
             unread: BTreeSet::new(),
         };
-        for error in &errors {
-            let at = error.span().map_or(0, |span| span.start);
-            let problem = match missing_quote(error.message()) {
-                Some(problem) => problem.to_owned(),
-                None => format!("is no TOML: {}", error.message()),
-            };
+        // One mistake may be told several times by the parser. The rest often follows from a quote that is missing.
+        let mut found: Vec<(usize, bool, String)> = errors
+            .iter()
+            .map(|error| {
+                let at = error.span().map_or(0, |span| span.start);
+                match missing_quote(error.message()) {
+                    Some(problem) => (at, false, problem.to_owned()),
+                    None => (at, true, format!("is no TOML: {}", error.message())),
+                }
+            })
+            .collect();
+        found.sort_by_key(|&(at, follows, _)| (source.line(at), follows));
+        found.dedup_by_key(|&mut (at, ..)| source.line(at));
+        for (at, _, problem) in found {
             source.fault(at, "", problem);
         }
-        // One mistake may be told several times by the parser. The rest often follows from a quote that is missing.
-        source
-            .faults
-            .sort_by_key(|fault| (fault.line, fault.problem.starts_with("is no TOML")));
-        source.faults.dedup_by_key(|fault| fault.line);
         if errors.is_empty() {
             Ok(source)
         } else {
@@ -84,10 +87,16 @@ impl<'t> Source<'t> {
         (at, Some(value))
     }
 
+    /// Number of the line at an offset, from 1.
+    fn line(&self, at: usize) -> usize {
+        self.lines.partition_point(|begin| *begin <= at)
+    }
+
     fn fault(&mut self, at: usize, field: &str, problem: String) {
+        let line = self.line(at);
         if self.faults.len() < MOST_FAULTS {
             self.faults.push(Fault {
-                line: self.lines.partition_point(|begin| *begin <= at),
+                line,
                 field: field.to_owned(),
                 problem,
             });

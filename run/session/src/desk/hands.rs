@@ -20,8 +20,8 @@ use std::sync::Arc;
 use glam::{Quat, Vec3};
 use vitriol_xr::{Around, Hand, Kind, Line, Pose, Side};
 
-pub use controls::Controls;
-use controls::{KEYS, REACH, SLOW};
+pub use controls::{Controls, SLOW};
+use controls::{KEYS, REACH};
 use gloves::{Pull, other};
 use hand::{Mover, State, Taking};
 use held::Drag;
@@ -175,7 +175,7 @@ impl Hands {
         self.click(&controls, around, dt);
         self.decide(&controls, around);
         self.pull(around);
-        let steps = (dt / STEP).ceil().max(1.0);
+        let steps = (dt / STEP).ceil();
         let view = [controls.right, controls.away];
         for _ in 0..steps as usize {
             let h = dt / steps;
@@ -269,8 +269,7 @@ impl Hands {
                 .and_then(|it| pours_clear(around, it, controls.right));
             if clear.is_some_and(|side| side != self.active) {
                 let left = self.active;
-                self.movers[left as usize].target.position =
-                    rest(left, self.head, self.ahead, around.table);
+                self.movers[left as usize].target.position = self.rests(left, around);
                 self.active = other(left);
             }
         }
@@ -360,7 +359,8 @@ impl Hands {
         let toggles = self.toggles;
         let asked = controls.grip || (toggles && press);
         let stays = controls.grip || toggles;
-        let drag = picked.and_then(|thing| self.drag(around, thing));
+        let begins = picked.filter(|_| controls.grip || press);
+        let drag = begins.and_then(|thing| self.drag(around, thing));
         let mover = &mut self.movers[self.active as usize];
         match &mut mover.state {
             State::Free | State::Opening(_) => {

@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use super::hands::Controls;
+use super::hands::{Controls, SLOW};
 use super::view::{Turns, Viewpoint};
 
 /// One event of mouse or keyboard in the window, or of a gamepad.
@@ -109,6 +109,8 @@ const TILTS: f32 = PI;
 /// Turn of the view that a drag over the picture's width asks for, rad, and rise of the eye over its height, m.
 const TURNS: f32 = PI;
 const RISES: f32 = 1.0;
+/// Speed at which keys raise the eye, m/s, while they turn it by a radian a second. Our choice: both take some two seconds from end to end.
+const KEYS_RISE: f32 = 0.5;
 /// Notches of the wheel, turned with the view's key, that halve or double the view.
 const ZOOMS: f32 = 5.0;
 /// Way of the pointer, in shares of the picture, up to which the middle button is clicked and not dragged. Our choice: a hand that clicks
@@ -173,7 +175,12 @@ impl Inputs {
                 self.keys.push(key);
                 self.press_key(key);
             }
-            Input::Key { key, down: false } => self.keys.retain(|it| *it != key),
+            // One of two keys that stand for it may still be down.
+            Input::Key { key, down: false } => {
+                if let Some(at) = self.keys.iter().position(|it| *it == key) {
+                    self.keys.swap_remove(at);
+                }
+            }
             Input::Left => {
                 self.keys.clear();
                 (self.tilting, self.turning, self.middle) = (None, false, None);
@@ -242,7 +249,7 @@ impl Inputs {
     pub fn turns(&mut self, passed: f32) -> Turns {
         let mut turns = std::mem::take(&mut self.new.turns);
         let share = if self.is_held(DeskKey::Slow) {
-            0.25
+            SLOW
         } else {
             1.0
         };
@@ -252,7 +259,7 @@ impl Inputs {
             up += self.axis(DeskKey::Down, DeskKey::Up);
         }
         turns.yaw += share * passed * across;
-        turns.rise += 0.5 * share * passed * up;
+        turns.rise += KEYS_RISE * share * passed * up;
         turns.zoom += share * passed * self.axis(DeskKey::ZoomOut, DeskKey::ZoomIn);
         let pressed = |key: DeskKey| self.new.keys.contains(&key);
         turns.side = pressed(DeskKey::SideView);

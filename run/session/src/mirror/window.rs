@@ -141,7 +141,7 @@ impl Window {
     /// Shows it on a thread of its own. Between its pictures is `every` (ns) at least, and their sides are `longest` (pixels) at most.
     fn show(asked: Asked, (every, longest): (i64, u32)) -> Result<Self, Failure> {
         // winit's own message for this names a line of its source.
-        if cfg!(target_os = "linux") && !names_screen() {
+        if !names_screen() {
             return Err(NO_SCREEN).other();
         }
         let extent = Arc::clone(&asked.extent);
@@ -223,10 +223,12 @@ const NO_SCREEN: &str = if cfg!(feature = "wayland") {
     "there is no X server (DISPLAY is not set)"
 };
 
-/// Whether the environment names a screen on Linux. If it names both, winit takes Wayland's.
-fn names_screen() -> bool {
-    let is_set = |name: &str| std::env::var_os(name).is_some();
-    is_set("DISPLAY") || (cfg!(feature = "wayland") && is_set("WAYLAND_DISPLAY"))
+/// Whether there is a screen for a window: on Linux one that the environment names, which is not asked. Of two, winit takes Wayland's; to it
+/// an empty name is none.
+pub fn names_screen() -> bool {
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|it| !it.is_empty());
+    let on_wayland = cfg!(feature = "wayland") && is_set("WAYLAND_DISPLAY");
+    !cfg!(target_os = "linux") || is_set("DISPLAY") || on_wayland
 }
 
 /// An event loop outside the main thread, on which the frame loop runs.

@@ -4,7 +4,7 @@ use glam::Vec3;
 use vitriol_render::{Bone, Finish, MOST_BONES};
 use vitriol_sim::scene::{Flask, Tool, ToolKind};
 use vitriol_sim::world::World;
-use vitriol_xr::{Around, Kind, Line, Moves, Pose, PoseFrame, Side, Thing};
+use vitriol_xr::{Around, Kind, Line, Pose, PoseFrame, Side, Thing};
 
 use super::Session;
 use crate::clock::MOST_STEPS;
@@ -87,7 +87,6 @@ fn flask(flask: &Flask, scale: f64, pose: Pose, grips: bool) -> Thing {
         height: (scale * profile.rim_height()) as f32,
         kind: Kind::Flask,
         grips,
-        moves: Moves::Freely,
     }
 }
 
@@ -106,10 +105,6 @@ fn tool(tool: &Tool, pose: Pose, grips: bool) -> Thing {
             ToolKind::Sash => Kind::Sash,
         },
         grips,
-        moves: match tool.kind {
-            ToolKind::Sash => Moves::UpAndDown,
-            _ => Moves::Freely,
-        },
     }
 }
 
@@ -167,7 +162,7 @@ mod tests {
         }
     }
 
-    /// What is dipped is known as that, and a sash alone stays on its rails.
+    /// What is dipped, slides or is worn has such a kind.
     #[test]
     fn tools_are_of_their_kind() {
         let things = ToolKind::ALL.map(|kind| {
@@ -180,8 +175,7 @@ mod tests {
         });
         for (kind, thing) in things {
             assert_eq!(thing.kind == Kind::Rod, kind.is_dipped(), "{kind:?}");
-            let slides = thing.moves == Moves::UpAndDown;
-            assert_eq!(slides, thing.kind == Kind::Sash, "{kind:?}");
+            assert_eq!(thing.kind == Kind::Sash, kind == ToolKind::Sash);
             let worn = matches!(thing.kind, Kind::Goggles | Kind::Gloves);
             assert_eq!(worn, kind.is_worn(), "{kind:?}");
             assert!(!thing.is_flask(), "{kind:?}");

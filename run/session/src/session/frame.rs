@@ -157,8 +157,7 @@ impl Session {
                         self.run.act(action)?;
                     }
                 }
-                // On a screen the view goes round the bench: a bench that followed it would leave the hands behind.
-                Decision::Recentre => recentre |= headset.eyes() > 1,
+                Decision::Recentre => recentre = true,
                 Decision::Summary if self.guide.tells(&self.run) => self.summary.toggle(),
                 Decision::Summary => {}
                 // `Choices::hear` has taken two of them, and `at` the third.

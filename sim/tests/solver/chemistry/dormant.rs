@@ -85,7 +85,10 @@ fn same_bits_as_with_all_passes() {
         let (quiet, violent) = seen.split_at(QUIET);
         // Before anything meets, no pass looks for bubbles.
         assert!(quiet.iter().all(|it| it.bubbles), "{quiet:?}");
-        assert!(violent.iter().any(|it| !it.turnover && !it.bubbles));
+        // The restored state wakes both for a frame; that is not counted.
+        let awake =
+            |(n, it): (usize, &Dormant)| n + QUIET != RESTORED + 1 && !it.turnover && !it.bubbles;
+        assert!(violent.iter().enumerate().any(awake));
     }
 }
 

@@ -76,6 +76,11 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
     let title = format!("title = \"{long}\"");
     let chinese = format!("summary = \"{}\"", "长".repeat(141));
     let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "hint = \"Wait.\"",
+            "hint = \"Wait.\", hint_desk = \"\"",
+            &["texts.en.step.check.hint_desk: empty"],
+        ),
         ("version = 1", "version = 2", &["version: 2", "reads 1"]),
         ("version = 1", "", &["missing field `version`"]),
         ("version = 1", "version = 1.5", &["line 2", "invalid type"]),

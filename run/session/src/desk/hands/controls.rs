@@ -4,7 +4,7 @@ use glam::Vec3;
 
 /// Speed of keys over the bench, m/s, and the share of a speed that is slow.
 pub(super) const KEYS: f32 = 0.25;
-pub(super) const SLOW: f32 = 0.25;
+pub const SLOW: f32 = 0.25;
 /// How far from the user the pointer's place on the bench, or what is held, is at most, m: an arm's length and a step.
 pub(super) const REACH: f32 = 0.85;
 /// Most notches of the wheel, and most tilt by the mouse (rad), in a frame: more is a fault of the device.
@@ -89,6 +89,12 @@ impl Controls {
     /// itself.
     pub(super) fn after(self, earlier: &Self) -> Self {
         Self {
+            // A click is of what was pointed at.
+            ray: if earlier.press || earlier.panel_press {
+                earlier.ray
+            } else {
+                self.ray
+            },
             pressed: self.pressed || earlier.press,
             press: self.press || earlier.press,
             release: self.release || earlier.release,

@@ -6,7 +6,7 @@ use glam::{Quat, Vec2, Vec3};
 use vitriol_xr::{Around, Kind, Pose};
 
 use super::motion::{Motion, SPEED, turn_between};
-use super::obstacles::{Bench, Clear, Shape, axis, level, slides};
+use super::obstacles::{Bench, Clear, Shape, UPRIGHT, axis, level, slides};
 
 mod steering;
 mod swirl;
@@ -35,14 +35,12 @@ const STOPS: f32 = 0.0005;
 const STANDS: f32 = 0.0013;
 /// A sideways way or a tilt (m, rad) from which on a body leaves the table.
 const STIRS: f32 = 0.005;
-/// How far a sash's bar goes up from the table, m (`SASH_TRAVEL` of the scene, and the bar).
-const SASH: f32 = 0.6;
+/// How far a sash goes up from where its bar lies on the table, m (`SASH_TRAVEL` of `bodies`).
+const SASH: f32 = 0.55;
 /// Distance from the eyes, m, at which goggles are let go where they were dragged there, and where a click brought them there: less
 /// than that in which they are put on (0.15 m, `bodies::wear`), however they are turned.
 const WORN: f32 = 0.12;
 const AT_EYES: f32 = 0.03;
-/// Cosine of the lean up to which a flask is upright: 10°.
-const UPRIGHT: f32 = 0.985;
 /// Time in which a motion is looked ahead as it brakes, s, and how many times.
 const BRAKE: f32 = 0.02;
 const BRAKES: usize = 16;
@@ -286,7 +284,9 @@ impl Held {
     /// Moves it for `h` seconds.
     pub fn step(&mut self, around: &Around, h: f32) -> Fares {
         if self.slides {
-            self.slid = self.slid.clamp(around.table, around.table + SASH);
+            let bar = around.things.get(self.thing).map_or(0.0, |it| it.radius);
+            let low = around.table + bar;
+            self.slid = self.slid.clamp(low, low + SASH);
             let now = self.motion.pose;
             let target = Pose::new(now.position.with_y(self.slid), now.orientation);
             self.motion = self.motion.towards(&target, SPEED, h);

@@ -6,6 +6,7 @@ use glam::{Quat, Vec3};
 use vitriol_xr::{Around, Line, Pose, Thing};
 
 use super::obstacles::{axis, counts, level, slides};
+use super::pointing::LIES;
 
 /// Radius of the lines, m.
 const THICK: f32 = 0.0012;
@@ -19,8 +20,6 @@ const WRIST_RING: f32 = 0.045;
 /// From a thing to its ring, and of a ring over what it lies on, m.
 const OFF: f32 = 0.006;
 const OVER: f32 = 0.003;
-/// Cosine of a lean from which on a thing is marked along its side.
-const LIES: f32 = 0.7;
 /// Half a cross on the bench, m.
 const CROSS: f32 = 0.012;
 /// Sine of the tilt from which on a pour's line is shown: 10°.

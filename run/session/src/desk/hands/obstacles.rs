@@ -6,12 +6,12 @@
 use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3};
-use vitriol_xr::{Around, Kind, Moves, Thing};
+use vitriol_xr::{Around, Kind, Thing};
 
 /// What a rod keeps from the outside of a flask's mouth, and the thickness of a flask's bottom, m: glass is 1 to 3 mm thick.
 const WALL: f32 = 0.003;
-/// Cosine of the lean up to which a rod can be dipped into a flask: 10°.
-const UPRIGHT: f32 = 0.985;
+/// Cosine of the lean up to which a flask is upright: 10°. Rods are dipped into such flasks, and such flasks are swirled.
+pub(super) const UPRIGHT: f32 = 0.985;
 /// How far beside a flask the pointer is, m, until a rod leaves that: more than a key that moves the rod asks for at a time.
 const LEAVES: f32 = 0.05;
 /// Points around a ring, and distance of rings along the axis, m.
@@ -224,7 +224,7 @@ pub(super) fn counts(thing: &Thing, table: f32) -> bool {
 
 /// Whether it only slides up and down: it hangs over the bench, and all pass under it.
 pub(super) fn slides(thing: &Thing) -> bool {
-    matches!(thing.moves, Moves::UpAndDown)
+    thing.kind == Kind::Sash
 }
 
 /// A point of the stage as seen from above: x and z, m.

@@ -15,7 +15,7 @@ const GAP: f32 = 0.02;
 const AT_FLASK: f32 = 0.55;
 const AT_ROD: f32 = 0.75;
 /// Cosine of the lean from which on a thing lies.
-const LIES: f32 = 0.7;
+pub(super) const LIES: f32 = 0.7;
 /// Distance of the palm from other things, m, at which a closing hand takes the right one.
 const APART: f32 = 0.04;
 /// Farthest place that a ray points to, m.

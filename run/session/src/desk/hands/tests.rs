@@ -4,7 +4,7 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Quat, Vec3};
-use vitriol_xr::{Around, Hand, Kind, Moves, Pose, Side, Thing};
+use vitriol_xr::{Around, Hand, Kind, Pose, Side, Thing};
 
 use super::{Controls, Hands};
 
@@ -19,7 +19,7 @@ const TABLE: f32 = 0.75;
 const SOURCE: usize = 0;
 const TARGET: usize = 1;
 
-fn thing([radius, rim, height]: [f32; 3], pose: Pose, kind: Kind, moves: Moves) -> Thing {
+fn thing([radius, rim, height]: [f32; 3], pose: Pose, kind: Kind) -> Thing {
     Thing {
         pose,
         radius,
@@ -27,13 +27,12 @@ fn thing([radius, rim, height]: [f32; 3], pose: Pose, kind: Kind, moves: Moves) 
         height,
         kind,
         grips: true,
-        moves,
     }
 }
 
 fn standing(sizes: [f32; 3], x: f32, z: f32) -> Thing {
     let pose = Pose::new(Vec3::new(x, TABLE, z), Quat::IDENTITY);
-    thing(sizes, pose, Kind::Flask, Moves::Freely)
+    thing(sizes, pose, Kind::Flask)
 }
 
 /// Two beakers and the panel behind them.
@@ -57,10 +56,10 @@ fn two_flasks() -> Around {
 }
 
 /// A tool that lies along x with its lower end to the right, as a scene puts it.
-fn lying([radius, height]: [f32; 2], middle: Vec3, kind: Kind, moves: Moves) -> Thing {
+fn lying([radius, height]: [f32; 2], middle: Vec3, kind: Kind) -> Thing {
     let turned = Quat::from_rotation_z(FRAC_PI_2);
     let pose = Pose::new(middle - 0.5 * height * (turned * Vec3::Y), turned);
-    thing([radius, radius, height], pose, kind, moves)
+    thing([radius, radius, height], pose, kind)
 }
 
 /// The bench, and the hands over it.
@@ -182,12 +181,12 @@ impl Bench {
             if let Some(n) = self.around.holds[side] {
                 let it = &mut self.around.things[n];
                 let pose = grip.compose(&self.thing_from_grip[side].inverse());
-                it.pose = match it.moves {
-                    Moves::Freely => pose,
-                    Moves::UpAndDown => Pose::new(
+                it.pose = match it.kind {
+                    Kind::Sash => Pose::new(
                         it.pose.position.with_y(pose.position.y),
                         it.pose.orientation,
                     ),
+                    _ => pose,
                 };
             }
         }

@@ -55,8 +55,6 @@ pub fn meaning(key: &Key) -> Option<Meaning> {
                 '-' | '_' => DeskKey::ZoomOut,
                 'v' => DeskKey::SideView,
                 'r' => DeskKey::PanelView,
-                // It would move the bench to the view, which Home moves back instead.
-                menu::RECENTRE => return None,
                 _ => return menu::decision(key).map(Meaning::Decides),
             }
         }
@@ -195,7 +193,6 @@ mod tests {
         ] {
             assert_eq!(meaning(&Key::Named(named)), moves(key), "{named:?}");
         }
-        assert_eq!(of("a"), None);
         assert_eq!(of("x"), None);
         assert_eq!(meaning(&Key::Named(NamedKey::F5)), None);
     }
@@ -206,6 +203,8 @@ mod tests {
         let decides = |decision| Some(Meaning::Decides(decision));
         let end = meaning(&Key::Named(NamedKey::Escape));
         assert_eq!(end, decides(Decision::AskEnd));
+        // A desk's bench stays where it is, whoever asks (`placement`).
+        assert_eq!(of("a"), decides(Decision::Recentre));
         for choice in CHOICES {
             let scene = Decision::Act(Action::Scene(choice.scene.into()));
             assert_eq!(

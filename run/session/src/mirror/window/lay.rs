@@ -49,7 +49,6 @@ mod tests {
 
     #[test]
     fn a_picture_lies_in_the_middle() {
-        // 2 × 1 in 5 × 4: twice as large, a row above and one below, a column at the right.
         let mut window = [0; 20];
         lay(&mut window, [5, 4], &[1, 2], [2, 1]);
         let rows: Vec<&[u32]> = window.chunks(5).collect();
@@ -57,6 +56,13 @@ mod tests {
         assert_eq!(rows[0], [1, 1, 1, 2, 2]);
         assert_eq!(rows[2], [1, 1, 1, 2, 2]);
         assert_eq!(rows[3], [0; 5]);
+        // Twice as large, with a row above and one below, and with a column at either side.
+        let mut window = [0; 16];
+        lay(&mut window, [4, 4], &[1, 2], [2, 1]);
+        assert_eq!(window[..8], [0, 0, 0, 0, 1, 1, 2, 2]);
+        let mut window = [0; 8];
+        lay(&mut window, [4, 2], &[1], [1, 1]);
+        assert_eq!(window, [0, 1, 1, 0, 0, 1, 1, 0]);
         // Its own size: as it is.
         let mut window = [0; 6];
         lay(&mut window, [3, 2], &[1, 2, 3, 4, 5, 6], [3, 2]);

@@ -10,10 +10,10 @@ fn tools_dip_and_wipe() {
         let mut around = two_flasks();
         let middle = Vec3::new(0.36, TABLE + 0.0035, -0.30);
         around.things.push(if rod {
-            lying([0.0035, 0.25], middle, Kind::Rod, Moves::Freely)
+            lying([0.0035, 0.25], middle, Kind::Rod)
         } else {
             let pose = Pose::new(middle.with_y(TABLE), Quat::IDENTITY);
-            thing([0.07, 0.07, 0.02], pose, Kind::Cloth, Moves::Freely)
+            thing([0.07, 0.07, 0.02], pose, Kind::Cloth)
         });
         let mut bench = Bench::new(around, RATES[0]);
         bench.point(middle);
@@ -69,9 +69,7 @@ fn tools_dip_and_wipe() {
 fn a_sash_goes_up_and_down() {
     let mut around = two_flasks();
     let bar = Vec3::new(0.0, 1.05, -0.13);
-    around
-        .things
-        .push(lying([0.012, 1.1], bar, Kind::Sash, Moves::UpAndDown));
+    around.things.push(lying([0.012, 1.1], bar, Kind::Sash));
     let mut bench = Bench::new(around, RATES[0]);
     bench.point(bar);
     bench.wait(4.0);
@@ -106,7 +104,7 @@ fn what_is_no_number_does_no_harm() {
                 right: vector,
                 away: vector,
                 pointed: true,
-                wheel: 0.0,
+                wheel: f32::NAN,
                 tilt_drag: f32::NAN,
                 walk: [f32::NAN; 2],
                 raise: f32::NAN,
@@ -121,7 +119,7 @@ fn what_is_no_number_does_no_harm() {
     bench.around.things[TARGET].pose.position = Vec3::splat(f32::NAN);
     bench.around.panel = (Pose::new(Vec3::splat(f32::NAN), Quat::IDENTITY), [0.0; 2]);
     (bench.controls, bench.dt) = (good, RATES[0]);
-    bench.around.things[TARGET].kind = Kind::Other;
+    bench.around.things[TARGET].kind = Kind::Cloth;
     bench.wait(1.0);
     bench.release();
     bench.wait(6.0);

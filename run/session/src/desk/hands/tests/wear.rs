@@ -8,7 +8,7 @@ fn with_goggles(dt: f32) -> (Bench, Vec3) {
     let at = Vec3::new(0.25, TABLE, -0.30);
     let pose = Pose::new(at, Quat::IDENTITY);
     let sizes = [0.075, 0.075, 0.06];
-    around.things[TARGET] = thing(sizes, pose, Kind::Goggles, Moves::Freely);
+    around.things[TARGET] = thing(sizes, pose, Kind::Goggles);
     (Bench::new(around, dt), at)
 }
 
