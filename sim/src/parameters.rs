@@ -71,6 +71,8 @@ pub struct Parameters {
     pub heaters: Vec<f64>,
     /// Whether passes are left out while they would change nothing. The bits are the same without.
     pub dormant: bool,
+    /// Whether passes leave liquid out that is at rest, even and at the room's temperature.
+    pub sleep: bool,
     /// Margin of the neighbour list beyond h, fraction of h.
     pub list_margin: f64,
     /// How far a particle may be from where it was listed, fraction of h.
@@ -210,6 +212,7 @@ impl Parameters {
             chemistry: Chemistry::from_scene(scene),
             heaters: scene.flasks.iter().map(|flask| flask.heater).collect(),
             dormant: true,
+            sleep: solver.sleep,
             list_margin: LIST_MARGIN,
             list_reach: LIST_REACH,
             margin: FLASK_MARGIN * scale.support(),

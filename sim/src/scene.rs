@@ -126,12 +126,14 @@ impl Scene {
                 omega,
                 carry_rate,
                 spacing,
+                sleep,
             } = *overrides;
             scene.solver.substeps = substeps.unwrap_or(scene.solver.substeps);
             scene.solver.iterations = iterations.unwrap_or(scene.solver.iterations);
             scene.solver.omega = omega.unwrap_or(scene.solver.omega);
             scene.solver.carry_rate = carry_rate.unwrap_or(scene.solver.carry_rate);
             scene.scale.spacing = spacing.unwrap_or(scene.scale.spacing);
+            scene.solver.sleep = sleep.unwrap_or(scene.solver.sleep);
         }
         scene
     }

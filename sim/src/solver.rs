@@ -26,6 +26,7 @@ mod lanes;
 mod matter;
 mod pane;
 mod pipelines;
+mod sleep;
 mod search;
 mod snapshot;
 mod solids;
@@ -98,7 +99,7 @@ impl Solver {
     pub fn new(gpu: &Gpu, library: &Library, spec: &SolverSpec<'_>) -> Result<Self, SolverError> {
         let count = u32::try_from(spec.particles.len())
             .map_err(|_| SolverError::TooManyParticles(spec.particles.len()))?;
-        let grid = Grid::new(&spec.parameters, count);
+        let grid = Grid::new(&spec.parameters, count, spec.flasks.len());
         let lanes = spec
             .lanes
             .unwrap_or_else(|| lanes::of_particles(gpu, count));

@@ -310,6 +310,7 @@ impl Vessel {
                 surface_tension: None,
                 hysteresis: None,
                 wall_step: None,
+                sleep: false,
             },
             model: vec![
                 Feature::Heat,

@@ -1,11 +1,17 @@
 // Line 10, counting sort: exclusive sums of the counts, a workgroup a block of cells. The blocks before are summed up by each
 // workgroup, which saves a pass between.
 //!include common/liquid/cells.wgsl
+//!include common/liquid/particle.wgsl
+
+/// As in `common/liquid/awake.wgsl`.
+override SLEEP: bool = false;
 
 @group(0) @binding(0) var<storage, read> cell_counts: array<u32>;
 @group(0) @binding(1) var<storage, read_write> cell_starts: array<u32>;
 @group(0) @binding(2) var<storage, read> block_counts: array<u32>;
 @group(0) @binding(3) var<storage, read_write> long_lists: array<u32>;
+/// See `common/liquid/awake.wgsl`.
+@group(0) @binding(59) var<storage, read_write> sleep: array<u32>;
 
 var<workgroup> sums: array<u32, 256>;
 
@@ -37,6 +43,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         workgroupBarrier();
     }
     let before = before_block + sums[local] - total;
+    // What comes before the second half does not rest.
+    if (SLEEP && first == 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { sleep[0] = before; }
     cell_starts[first] = before;
     cell_starts[first + 1u] = before + a;
     cell_starts[first + 2u] = before + b;

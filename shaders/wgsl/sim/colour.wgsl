@@ -3,6 +3,7 @@
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/glass/vessel.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/blocks_about.wgsl
 //!include common/liquid/claim_block.wgsl
 //!include common/liquid/particle.wgsl
@@ -70,7 +71,7 @@ fn add_volume(x: vec3<f32>, volume: f32, lane: u32, blocks: array<u32, 8>) {
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let membership = tags[i].x;
     let own_grid = select(REMOVED, membership, list_counts[i] >= FEWEST);
     let x = position[i].xyz;

@@ -9,6 +9,7 @@
 //!include common/chemistry/pair_share.wgsl
 //!include common/chemistry/thomsen.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
@@ -70,7 +71,7 @@ fn diffuse(i: u32, lane: u32, own: PaperHeat) -> Diffusion {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let own = unpack_paper_heat(heat[i]);
     var diffusion: Diffusion;
     if (DILUTION) { diffusion = diffuse(i, lane, own); }

@@ -11,6 +11,7 @@
 //!include common/glass/constraint.wgsl
 //!include common/glass/mirror.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/listed.wgsl
@@ -215,7 +216,7 @@ fn commit(i: u32, tag: vec2<u32>, x_star: vec3<f32>, multiplied: f32) {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let own = solved[i];
     let sum = sum_gradients(i, lane, own); // 19
     let walls = walls_of(i, lane, own.xyz);

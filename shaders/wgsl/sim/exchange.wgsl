@@ -20,6 +20,7 @@
 //!include common/glass/glass_rings.wgsl
 //!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
@@ -375,7 +376,7 @@ fn coefficient_of(own: Potential, eddies: Eddies) -> f32 {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let own = unpack_potential(heat[i]);
     let full = full_from(atomicLoad(&counters.list_overflows));
     let is_full = list_counts[i] >= full;

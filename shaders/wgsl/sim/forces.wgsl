@@ -14,6 +14,7 @@
 //!include common/chemistry/plunging.wgsl
 //!include common/chemistry/potential.wgsl
 //!include common/glass/contact.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/internal_forces.wgsl
@@ -250,7 +251,7 @@ fn plunge(i: u32, tag: vec2<u32>, v: vec3<f32>, filled: f32) {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let x = position[i].xyz;
     let before = new_velocity[i];
     var omega = vec4<f32>(0.0);

@@ -2,8 +2,9 @@
 // and that it lies on. The rod takes no room: a rod of 7 mm is hardly thicker than a particle.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
-//!include common/liquid/particle.wgsl
+//!include common/liquid/flask_sleep.wgsl
 //!include common/liquid/position.wgsl
 //!include common/liquid/velocity.wgsl
 
@@ -81,6 +82,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     if (place < 0.0 || place > long || aside >= handle.radius + SPACING) { return; }
+    // Liquid that rests wakes up where the rod moves in it.
+    let is_moving = any(handle.velocity_a != vec3<f32>(0.0)) || any(handle.velocity_b != vec3<f32>(0.0));
+    if (SLEEP && is_moving && membership != NOBODYS) { keep_awake(membership - 1u); }
     let v = velocity[i];
     let rods = mix(handle.velocity_a, handle.velocity_b, place / long);
     let relative = rods - v.xyz;

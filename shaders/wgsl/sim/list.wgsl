@@ -102,6 +102,8 @@ fn word(k: u32) -> u32 {
 var<private> coincident: bool;
 /// Whether any neighbour has another membership; where a lane is alone.
 var<private> mixed: bool;
+/// First cell of the half of the table that the particle is in.
+var<private> own_half: u32;
 
 /// A row of three cells along x: particles from `first` on, and then from `second` on where it goes on in another block.
 struct Row {
@@ -122,9 +124,9 @@ fn row_at(cell: vec3<i32>, row: u32) -> Row {
     let z = cell.z + i32(row / 3u) - 1;
     let last = (1 << BLOCK_BITS) - 1;
     let at = cell.x & last;
-    let low = cell_index(vec3<i32>(cell.x - 1, y, z));
-    let middle = cell_index(vec3<i32>(cell.x, y, z));
-    let high = cell_index(vec3<i32>(cell.x + 1, y, z));
+    let low = own_half + cell_index(vec3<i32>(cell.x - 1, y, z));
+    let middle = own_half + cell_index(vec3<i32>(cell.x, y, z));
+    let high = own_half + cell_index(vec3<i32>(cell.x + 1, y, z));
     let parted = at == 0 || at == last;
     let first = start_of(low);
     let end = start_of(low + select(3u, select(2u, 1u, at == 0), parted));
@@ -300,12 +302,13 @@ fn apart(identity: u32) -> vec3<f32> {
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
     let i = id.x / LIST_LANES;
     let own = id.x % LIST_LANES;
-    if (i >= COUNT) { return; }
+    if (i >= sorted_count()) { return; }
     let tag = sorted_tags[i];
     var x = sorted_trial[i].xyz;
     found = 0u;
     coincident = false;
     mixed = false;
+    own_half = table_half_of(tag.x);
     place = place_of(i);
     if (LIST_LANES > 1u) {
         list_by_lanes(i, Lane(own, in_subgroup - own), x, tag.x);

@@ -14,6 +14,7 @@
 //!include common/chemistry/cavity.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/glass/boundary.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/list_args.wgsl
 //!include common/liquid/listed.wgsl
@@ -125,7 +126,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             list_args[LIST_ARGS] = 0u;
         }
     }
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let own = trial[i];
     let x = own.xyz;
     let sum = sum_weights(i, lane, x);

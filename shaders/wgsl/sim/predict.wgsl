@@ -2,7 +2,7 @@
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/turnover_plan.wgsl
-//!include common/liquid/particle.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
 
@@ -19,8 +19,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (DORMANT_TURNOVER) {
         if (i == 0u) { plan_turnover(step.time); }
     }
-    if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
+    // In a frame in which flasks fell asleep or woke up, particles are not yet where they belong.
+    if (i >= sorted_count()) { return; }
     var volume = 1.0;
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
+    if (sleeps(tags[i].x)) {
+        trial[i] = pack_trial(position[i].xyz, volume);
+        return;
+    }
+    if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
     predict(i, position[i].xyz, velocity[i].xyz, volume, tags[i].x, step.before, step.after);
 }

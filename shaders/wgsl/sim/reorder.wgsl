@@ -31,7 +31,8 @@
 
 /// 1 where particle `other` is in the cell and comes before particle i, else 0.
 fn one_before(other: u32, i: u32, cell: u32) -> u32 {
-    let is_there = cell_index(cell_of(trial[min(other, i)].xyz)) == cell;
+    let j = min(other, i);
+    let is_there = cell_index(cell_of(trial[j].xyz)) + table_half_of(tags[j].x) == cell;
     return select(0u, select(0u, 1u, is_there), other < i);
 }
 
@@ -63,14 +64,14 @@ fn rank_in_cell(i: u32, cell: u32, count: u32) -> u32 {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x;
-    if (i >= COUNT) { return; }
+    if (i >= sorted_count()) { return; }
     let x = trial[i];
-    let cell = cell_index(cell_of(x.xyz));
+    let tag = tags[i];
+    let cell = cell_index(cell_of(x.xyz)) + table_half_of(tag.x);
     let start = start_of(cell);
     let to = start + rank_in_cell(i, cell, start_of(cell + 1u) - start);
     cell_counts[cell] = 0u;
     block_counts[cell / SCAN_BLOCK] = 0u;
-    let tag = tags[i];
     // The list pass reads both of every candidate: one fetch in place of two.
     sorted_trial[to] = pack_sorted_trial(x.xyz, tag.x);
     sorted_position[to] = position[i];

@@ -1,6 +1,7 @@
 // One pass of the filter over the flow: some of a particle's becomes the mean around it.
 // `reference/eddies.rs` is the same in f64.
 //!include common/chemistry/flow.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
@@ -17,7 +18,7 @@ override SHARE: f32 = 1.0;
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let x = position[i].xyz;
     let own = flow_at(i);
     var change = vec3<f32>(0.0);

@@ -6,6 +6,7 @@
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/flow.wgsl
 //!include common/chemistry/turnover_plan.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
@@ -38,7 +39,7 @@ fn stirred_by_bubbles(i: u32) -> f32 {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let x = position[i].xyz;
     let own = flow_at(i);
     // ∇v by its diagonal and what mirrors itself across it, ∇ρ, and the first moment.

@@ -6,6 +6,7 @@
 //!include common/chemistry/surface_tension.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/blocks_about.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/find_block.wgsl
@@ -126,10 +127,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     let lane = id.x % LANES;
     if (colour_args[0] >= MOST_BLOCKS) {
         if (id.x == 0u) { atomicAdd(&counters.tension_skipped, 1u); }
-        if (HYSTERESIS > 0.0 && lane == 0u && i < COUNT) { held[tags[i].y] = vec4<f32>(0.0); }
+        if (HYSTERESIS > 0.0 && lane == 0u && i < awake_count()) { held[tags[i].y] = vec4<f32>(0.0); }
         return;
     }
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let membership = tags[i].x;
     let takes_part = membership != REMOVED && list_counts[i] >= FEWEST;
     let x = position[i].xyz;

@@ -7,6 +7,7 @@
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/transport.wgsl
+//!include common/liquid/awake.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
@@ -27,7 +28,7 @@
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let full = full_from(atomicLoad(&counters.list_overflows));
     let is_full = list_counts[i] >= full;
     let x = position[i].xyz;

@@ -1,6 +1,7 @@
 // Line 28, first half: ω = ∇ × v of each particle (Macklin & Müller 2013,
 // Eq. 15), of the velocities before viscosity. A pass of its own: confinement
 // needs the neighbours' ω.
+//!include common/liquid/awake.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
@@ -16,7 +17,7 @@
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+    if (i >= awake_count()) { return; }
     let x = position[i].xyz;
     let own = new_velocity[i].xyz;
     var sum = vec3<f32>(0.0);

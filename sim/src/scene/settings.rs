@@ -121,6 +121,9 @@ pub struct SolverSettings {
     /// Most of d that a flask's wall moves in a substep: with a faster hand a step takes more substeps, up to three times as many.
     /// Without this value the number of substeps is constant.
     pub wall_step: Option<f64>,
+    /// Whether liquid that is at rest, even and at the room's temperature is left out of the passes until something comes near.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub sleep: bool,
 }
 
 /// Changes of a preset; values that it does not name stay as the scene has them.
@@ -138,6 +141,8 @@ pub struct PresetOverrides {
     /// Particle spacing d, metres; volumes of liquid stay, so the number of
     /// particles follows.
     pub spacing: Option<f64>,
+    /// Whether liquid at rest is left out.
+    pub sleep: Option<bool>,
 }
 
 /// The table in the file.

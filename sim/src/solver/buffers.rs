@@ -5,6 +5,7 @@ use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::dormant::{PLAN_WORDS, SIZE_WORDS};
 use super::grid::Grid;
+use super::sleep;
 use super::spec::SolverSpec;
 use super::vapour::{COUNTS, PUFFS, dew_places, dew_rows, with_steam};
 use super::vessels::Vessels;
@@ -174,6 +175,12 @@ buffers! {
         cell_starts: s.cells,
         block_counts: s.blocks,
         list_args: 12,
+        /// Particles of cells during a rebuild, where the list keeps those of liquid at rest.
+        cell_items: s.own_items,
+        /// Number of particles that do not rest, whether that changed, and by flask whether its liquid rests.
+        sleep: s.sleep,
+        /// What was noted of each flask to tell.
+        flask_sleeps: s.flask_sleeps,
         solution: words_of(&s.solution),
         lamellae: words_of(&s.lamellae),
         /// Records of bubbles before and after a step.
@@ -232,6 +239,9 @@ struct Sizes {
     listed: u64,
     cells: u64,
     blocks: u64,
+    own_items: u64,
+    sleep: u64,
+    flask_sleeps: u64,
     /// Blocks of surface tension's nodes, and the nodes.
     slots: u64,
     nodes: u64,
@@ -284,6 +294,7 @@ impl Sizes {
         let dew = dew_places(parameters, spec.flasks.len());
         let solution = physical.then(|| SolutionTable::new().rows());
         let lamellae = feed.map(|feed| Lamellae::of(feed).rows());
+        let [sleep, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
         let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
         Self {
             n,
@@ -300,6 +311,9 @@ impl Sizes {
             listed: grid.places(count) + grid.long(count),
             cells: grid.cells().into(),
             blocks: grid.blocks().into(),
+            own_items: grid.own_items(count),
+            sleep,
+            flask_sleeps,
             slots,
             nodes,
             held_nodes: where_asked(sticks, nodes),

@@ -73,6 +73,11 @@ impl Solver {
     /// is executed again.
     pub(super) fn record_passes(&self, rec: &mut Recorder) -> Result<(), SolverError> {
         let (p, substeps) = (&self.pipelines, self.parameters.substeps);
+        if let Some([sleep, _]) = &p.sleep {
+            self.pass(rec, sleep)
+                .constants(&self.step(substeps - 1))
+                .workgroups([1, 1, 1])?;
+        }
         // Lines 6 to 8, and 16 of the first substep; the forces of each end with that of the next.
         self.pass(rec, &p.predict)
             .constants(&self.step(0))
@@ -108,6 +113,11 @@ impl Solver {
         }
         for pass in &p.eddies {
             self.pass(rec, pass).invocations(self.count * self.lanes)?;
+        }
+        if let Some([_, calm]) = &p.sleep {
+            self.pass(rec, calm)
+                .constants(&self.step(substeps - 1))
+                .invocations(self.count)?;
         }
         if let Some(glass) = &p.glass {
             self.pass(rec, glass)

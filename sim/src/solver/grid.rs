@@ -1,5 +1,6 @@
 //! The neighbour search's sizes: cells, their table, and the list (lines 9 to 12).
 
+use super::sleep;
 use crate::parameters::Parameters;
 
 /// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
@@ -18,6 +19,8 @@ pub struct Grid {
     pub cell: f64,
     /// Logarithms of the cells in x, y and z.
     pub bits: [u32; 3],
+    /// Tables of cells: a second one where liquid may rest.
+    tables: u32,
     /// Neighbours for which each particle has a place in the list.
     pub list_capacity: u32,
 }
@@ -25,12 +28,13 @@ pub struct Grid {
 impl Grid {
     /// As many cells as particles: a cell of one support radius holds eight
     /// at h/d = 2, so most of the table is empty and distant cells rarely meet.
-    pub fn new(parameters: &Parameters, count: u32) -> Self {
+    pub fn new(parameters: &Parameters, count: u32, flasks: usize) -> Self {
         let cell = parameters.support_radius * (1.0 + parameters.list_margin);
         let total = count.max(SCAN_BLOCK).next_power_of_two().ilog2();
         Self {
             cell,
             bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
+            tables: 1 + u32::from(sleep::is_on(parameters, flasks)),
             list_capacity: parameters.list_capacity(),
         }
     }
@@ -48,6 +52,11 @@ impl Grid {
     /// Particles of each cell that are noted before they are sorted, where the list will be.
     pub fn cell_items(&self, count: u32) -> u32 {
         (self.places(count) / u64::from(self.cells())).max(1) as u32
+    }
+
+    /// Words for these particles where lists of liquid at rest must be kept meanwhile; else 0.
+    pub fn own_items(&self, count: u32) -> u64 {
+        u64::from(self.cells()) * u64::from(self.cell_items(count)) * u64::from(self.tables - 1)
     }
 
     /// Number of fours in all lists that are longer than a place, and then the first four of each particle's, for long lists in the
@@ -103,9 +112,9 @@ impl Grid {
         }
     }
 
-    /// Cells in the table.
+    /// Cells in the tables.
     pub fn cells(&self) -> u32 {
-        1 << self.bits.iter().sum::<u32>()
+        self.tables << self.bits.iter().sum::<u32>()
     }
 
     /// Workgroups that scan them.

@@ -5,6 +5,7 @@ use super::colour::Colour;
 use super::dormant;
 use super::grid::Grid;
 use super::lanes;
+use super::sleep;
 use super::vapour::dew_places;
 use super::vessels::PLANE_ENTRIES;
 use super::wall_heat;
@@ -32,6 +33,8 @@ pub(super) struct Pipelines {
     pub(super) pane: Option<SolverPass>,
     /// Stops drops at the sash as `pane` stops particles; where there are tools, and bubbles throw up drops.
     pub(super) pane_spray: Option<SolverPass>,
+    /// Where liquid may rest: which does, at a frame's start, and what keeps it awake, at its end.
+    pub(super) sleep: Option<[SolverPass; 2]>,
     pub(super) predict: SolverPass,
     /// Where there are bubbles.
     pub(super) cavity: Option<SolverPass>,
@@ -96,6 +99,10 @@ impl Pipelines {
         let displaced = [("trial", "new_velocity")];
         let displaced = &displaced[..usize::from(carry > 0.0)];
         let spacing = spec.parameters.particle_volume().cbrt();
+        let sleeps = sleep::is_on(&spec.parameters, spec.flasks.len());
+        // Lists of liquid at rest stay while the others are made anew.
+        let items = [("cell_items", "cell_items")];
+        let items = &items[..usize::from(sleeps)];
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
         let make_with = |shader, extra: &[_], names: &[_]| {
             constants.pass_with(gpu, library, buffers, shader, extra, names)
@@ -142,10 +149,13 @@ impl Pipelines {
                 Some(bubbles) if bubbles.spray && spec.tools => Some(make(sim::PANE_SPRAY, &[])?),
                 _ => None,
             },
+            sleep: sleeps
+                .then(|| Ok::<_, SolverError>([make(sim::SLEEP, &[])?, make(sim::CALM, &[])?]))
+                .transpose()?,
             predict: make(sim::PREDICT, &[])?,
-            cell_count: make(sim::CELL_COUNT, &[])?,
+            cell_count: make_with(sim::CELL_COUNT, &[], items)?,
             cell_scan: make(sim::CELL_SCAN, &[])?,
-            reorder: make(sim::REORDER, &[])?,
+            reorder: make_with(sim::REORDER, &[], items)?,
             list: make(sim::LIST, &[])?,
             carried_displacement: make_with(
                 sim::DISPLACEMENT,
@@ -380,6 +390,7 @@ impl Constants {
                 ("TABLE_HALF_Z", 0.5 * size.y),
             ]);
         }
+        all.extend(sleep::constants(spec));
         if let Some(surface) = &p.surface {
             all.extend(Colour::new(p, count).constants(p, surface));
         }

@@ -59,7 +59,7 @@ macro_rules! array {
 }
 
 /// All arrays of a state but the neighbour list's; the hash has them in this order.
-const ARRAYS: [Array; 27] = [
+const ARRAYS: [Array; 29] = [
     array!(position, positions, "positions", ByIdentity),
     array!(velocity, velocities, "velocities", ByIdentity),
     array!(tags, tags, "tags", ByIdentity),
@@ -87,6 +87,8 @@ const ARRAYS: [Array; 27] = [
     array!(sprayed, spray.sprayed, "sprayed particles", No),
     array!(spray_left, spray.left, "flasks that spray left", No),
     array!(counters, counters, "counters", No),
+    array!(sleep, sleep.sleep, "liquid at rest", No),
+    array!(flask_sleeps, sleep.flasks, "flasks at rest", No),
 ];
 
 /// Elements of whatever type.

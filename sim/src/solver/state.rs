@@ -4,6 +4,7 @@ use super::bubbles::{self, BubbleState, VapourAccount};
 use super::counters::Counters;
 use super::grid::Grid;
 use super::matter::Start;
+use super::sleep::{self, SleepState};
 use super::spec::Particle;
 use super::spray::{SprayAccount, SprayState};
 use super::steam::{SteamPasses, SteamState};
@@ -55,6 +56,7 @@ pub struct SolverState {
     /// Acceleration with which walls hold the surface's line (m/s²), and as w whose wall it is, by identity, until surface tension acts
     /// again; empty without hysteresis.
     pub(super) held: Vec<[f32; 4]>,
+    pub(super) sleep: SleepState,
 }
 
 /// Membership of a particle that was taken out.
@@ -97,6 +99,7 @@ impl SolverState {
             list_counts: vec![0; n],
             list: vec![0; grid.places(n as u32) as usize],
             counters: vec![0; size_of::<Counters>() / 4],
+            sleep: SleepState::start(sleep::is_on(parameters, flasks), n, flasks),
         };
         match &parameters.chemistry {
             None => {}

@@ -27,7 +27,7 @@ const LEAST_PUFF: f64 = 5e-7;
 const STEPS: u32 = 4;
 
 /// Temperature of a room whose scene names none, °C.
-const ROOM_TEMPERATURE: f64 = 20.0;
+pub(super) const ROOM_TEMPERATURE: f64 = 20.0;
 
 /// Passes that move puffs, make new ones, and condense their water on glass.
 pub(super) struct SteamPasses {

@@ -43,6 +43,7 @@ pub fn parameters() -> Parameters {
         chemistry: None,
         heaters: Vec::new(),
         dormant: true,
+        sleep: false,
         list_margin: 0.05,
         list_reach: 0.075,
         margin: 0.001 * H,

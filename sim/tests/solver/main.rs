@@ -33,6 +33,7 @@ mod random_glass;
 mod repeat;
 mod rest;
 mod sessile;
+mod sleep;
 mod solids;
 mod stream;
 mod tension;

@@ -88,6 +88,7 @@ fn bare() -> Parameters {
         chemistry: None,
         heaters: Vec::new(),
         dormant: true,
+        sleep: false,
         list_margin: 0.05,
         list_reach: 0.075,
         margin: 5e-6,

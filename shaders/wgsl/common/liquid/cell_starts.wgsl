@@ -1,9 +1,9 @@
 // The counting sort's result: where each cell's particles lie, by `cell_starts` of the including shader.
-//!include common/liquid/cells.wgsl
-//!include common/liquid/particle.wgsl
+//!include common/liquid/sleep_cells.wgsl
 
-/// Index of the first particle of a cell; of the end of the table after the last.
+/// Index of the first particle of a cell; of the end of what was sorted after the last.
 fn start_of(cell: u32) -> u32 {
-    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
+    let cells = half_table() * select(1u, 2u, SLEEP);
+    if (cell >= cells) { return sorted_count(); }
     return cell_starts[cell];
 }

@@ -1,0 +1,34 @@
+// Which particles rest (`sim/sleep.wgsl`). They lie behind all others in each array, so a pass over particles ends before them, and the places and
+// lists that they have stay valid.
+//!include common/liquid/particle.wgsl
+
+/// Whether liquid that rests is left out.
+override SLEEP: bool = false;
+
+/// Number of particles that do not rest; whether flasks fell asleep or woke up in this frame; then, by flask, whether its liquid rests.
+@group(0) @binding(59) var<storage, read> sleep: array<u32>;
+
+const SLEEP_AWAKE = 0u;
+const SLEEP_CHANGED = 1u;
+const SLEEP_FLASKS = 2u;
+
+/// Number of particles that a pass moves: the first ones.
+fn awake_count() -> u32 {
+    if (SLEEP) { return sleep[SLEEP_AWAKE]; }
+    return COUNT;
+}
+
+/// Whether particles of a membership rest.
+fn sleeps(membership: u32) -> bool {
+    if (SLEEP) {
+        if (membership == NOBODYS || membership == REMOVED) { return false; }
+        return sleep[SLEEP_FLASKS + membership - 1u] != 0u;
+    }
+    return false;
+}
+
+/// Number of particles that a rebuild of the list sorts: all of them where a flask fell asleep or woke up.
+fn sorted_count() -> u32 {
+    if (SLEEP) { return select(sleep[SLEEP_AWAKE], COUNT, sleep[SLEEP_CHANGED] != 0u); }
+    return COUNT;
+}

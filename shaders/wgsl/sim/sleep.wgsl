@@ -1,0 +1,83 @@
+// At a frame's start: which flasks' liquid rests. It does once the flask has stood still, and its liquid has been slow, even and at the room's
+// temperature for `CALM_FRAMES`, and nothing has come near. All of that is known on the device when the frame begins, so nothing rests that a
+// pass would have moved.
+//!include common/chemistry/features.wgsl
+//!include common/chemistry/slots.wgsl
+//!include common/chemistry/turnover_plan.wgsl
+//!include common/liquid/flask_sleep.wgsl
+//!include common/liquid/list_check.wgsl
+//!include common/liquid/step.wgsl
+
+/// Frames for which nothing may happen before liquid rests.
+override CALM_FRAMES: u32 = 18u;
+
+/// As `common/liquid/awake.wgsl` has it.
+@group(0) @binding(59) var<storage, read_write> sleep: array<u32>;
+@group(0) @binding(0) var<storage, read> live: array<u32>;
+
+/// How far a flask may drift while it counts as at rest, m; how far it may turn, as a length of quaternions; difference of acid fractions up to
+/// which liquid is even (`solver/sleep.rs`).
+override STILL: f32 = 1e-4;
+override UPRIGHT: f32 = 1e-3;
+override EVEN: f32 = 1e-3;
+
+/// Whether a flask is no longer where it was.
+fn has_moved(from_position: vec3<f32>, from_orientation: vec4<f32>, to: FlaskPose) -> bool {
+    let way = to.position.xyz - from_position;
+    // A quaternion and its negative are the same orientation.
+    let turned = min(distance(from_orientation, to.orientation), distance(from_orientation, -to.orientation));
+    // Negated, so that a NaN counts as motion.
+    return !(dot(way, way) <= STILL * STILL && turned <= UPRIGHT);
+}
+
+/// Whether a flask moves in this frame.
+fn moves(k: u32) -> bool {
+    return has_moved(poses[k].position.xyz, poses[k].orientation, poses[step.after + k]);
+}
+
+/// Whether a flask that moves is near flask k.
+fn is_visited(k: u32) -> bool {
+    let own = sphere_about(k, poses[k]);
+    for (var other = 0u; other < FLASKS; other++) {
+        if (other == k || !moves(other)) { continue; }
+        let about = sphere_about(other, poses[step.after + other]);
+        if (distance(own.xyz, about.xyz) < own.w + about.w + CLEARANCE) { return true; }
+    }
+    return false;
+}
+
+/// Whether liquid of flask k was even in composition.
+fn is_even(k: u32) -> bool {
+    let least = bitcast<f32>(atomicExchange(&flask_sleeps[k].least_acid, 0x7f7fffffu));
+    let most = bitcast<f32>(atomicExchange(&flask_sleeps[k].most_acid, 0u));
+    return !HEAT || most - least <= EVEN;
+}
+
+@compute @workgroup_size(1)
+fn main() {
+    var stirred = false;
+    if (BUBBLES) { stirred = live[SLOTS] + live[SLOTS + 1u] > 0u; }
+    var changed = false;
+    for (var k = 0u; k < FLASKS; k++) {
+        let pose = poses[step.after + k];
+        let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, pose);
+        let lively = atomicExchange(&flask_sleeps[k].lively, 0u) != 0u;
+        let even = is_even(k);
+        if (drifted || lively || !even || stirred || moves(k) || is_visited(k)) {
+            flask_sleeps[k].calm = 0u;
+            flask_sleeps[k].position = pose.position.xyz;
+            flask_sleeps[k].orientation = pose.orientation;
+        } else {
+            flask_sleeps[k].calm = min(flask_sleeps[k].calm + 1u, CALM_FRAMES);
+        }
+        let sleeps = select(0u, 1u, flask_sleeps[k].calm == CALM_FRAMES);
+        changed = changed || sleeps != sleep[2u + k];
+        sleep[2u + k] = sleeps;
+    }
+    sleep[1] = select(0u, 1u, changed);
+    if (changed) {
+        ask_for_list();
+        // Nothing is known of the eddies of what woke up.
+        if (DORMANT_TURNOVER) { atomicStore(&turnover_plan.fastest, 0xffffffffu); }
+    }
+}

@@ -1,0 +1,111 @@
+//! Liquid at rest, which passes over particles leave out. The device decides at each frame's start (`shaders/wgsl/sim/sleep.wgsl`).
+
+use super::spec::SolverSpec;
+use super::steam::ROOM_TEMPERATURE;
+use super::transfer::read;
+use super::wall_heat;
+use super::{Solver, SolverError};
+use crate::parameters::Parameters;
+use serde::{Deserialize, Serialize};
+
+/// Words of `sleep` before those of flasks: the number of particles that do not rest is the first.
+const HEAD: usize = 2;
+
+/// Words of a flask in `flask_sleeps`.
+const FLASK_WORDS: usize = 12;
+
+/// Time for which nothing may happen before liquid rests, s. Chosen: half a period of the slosh in a beaker of 80 mm is 0.15 s.
+const CALM_TIME: f64 = 0.2;
+
+/// Height to which slow liquid would rise, in spacings. Chosen: 0.05 mm at `fast`, where a surface at rest has particles of
+/// up to 0.026 m/s and this makes 0.030.
+const RISE: f64 = 0.016;
+
+/// Distance that liquid and moving flasks keep, in spacings. Chosen: 35 mm at `fast`.
+const CLEARANCE: f64 = 12.0;
+
+/// How far a flask may drift, in spacings, and turn, as a length of quaternions (0.1°). Chosen, well below what moves liquid.
+const DRIFT: f64 = 0.04;
+const TURN: f64 = 1e-3;
+
+/// Difference from the room up to which liquid counts as at its temperature, K. Still air and glass take 12 W/(m² K): a beaker of
+/// 160 mL loses 1.2 W, and cools by 0.2 K in a minute.
+const WARM: f64 = 5.0;
+
+/// Difference of acid fractions up to which liquid is even. At 98 % so much water sets 1 J/g free, 0.7 K.
+const EVEN: f64 = 1e-3;
+
+/// The part of a state that tells which liquid rests; empty where none may.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(super) struct SleepState {
+    /// Number of particles that do not rest, whether that changed in the last frame, and whether each flask's liquid rests.
+    pub(super) sleep: Vec<u32>,
+    /// The words of `FlaskSleep` of each flask.
+    pub(super) flasks: Vec<[u32; FLASK_WORDS]>,
+}
+
+impl SleepState {
+    /// All liquid is awake.
+    pub(super) fn start(is_on: bool, count: usize, flasks: usize) -> Self {
+        if !is_on {
+            return Self::default();
+        }
+        let mut sleep = vec![0; HEAD + flasks];
+        sleep[0] = count as u32;
+        Self {
+            sleep,
+            flasks: vec![[0; FLASK_WORDS]; flasks],
+        }
+    }
+}
+
+/// Whether liquid of a scene with so many flasks may rest. Not over a plate, which heats on.
+pub(super) fn is_on(p: &Parameters, flasks: usize) -> bool {
+    p.sleep && flasks > 0 && p.heaters.iter().all(|&watts| watts == 0.0)
+}
+
+/// Words of `sleep` and of `flask_sleeps`.
+pub(super) fn words(p: &Parameters, flasks: usize) -> [u64; 2] {
+    if is_on(p, flasks) {
+        [HEAD + flasks, FLASK_WORDS * flasks].map(|words| words as u64)
+    } else {
+        [0; 2]
+    }
+}
+
+/// Constants of its shaders.
+pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
+    let p = &spec.parameters;
+    if !is_on(p, spec.flasks.len()) {
+        return Vec::new();
+    }
+    let d = p.spacing;
+    let gravity = glam::DVec3::from(p.gravity).length();
+    let room = wall_heat::losses(p.chemistry.as_ref()).map_or(ROOM_TEMPERATURE, |l| l.ambient);
+    vec![
+        ("SLEEP", 1.0),
+        ("CALM_FRAMES", (CALM_TIME / p.frame_time).ceil()),
+        ("SLOW", (2.0 * gravity * RISE * d).sqrt()),
+        ("CLEARANCE", CLEARANCE * d),
+        ("STILL", DRIFT * d),
+        ("UPRIGHT", TURN),
+        ("ROOM", room),
+        ("WARM", WARM),
+        ("EVEN", EVEN),
+        ("VARIED", EVEN * EVEN),
+    ]
+}
+
+impl Solver {
+    /// Number of particles whose liquid did not rest in the last frame; waits for the device.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device fails.
+    pub fn awake(&self) -> Result<u32, SolverError> {
+        if !is_on(&self.parameters, self.flasks) {
+            return Ok(self.count);
+        }
+        let words = read::<u32>(&self.gpu, &self.buffers.sleep, HEAD)?;
+        Ok(words.first().copied().unwrap_or(self.count))
+    }
+}

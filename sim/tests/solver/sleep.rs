@@ -1,0 +1,311 @@
+//! Liquid that sleeps: it stays where it is, wakes before anything meets it, and goes on as if it had not slept.
+
+use crate::chemistry::setup::{glass_of, with, with_bubbles};
+use crate::common::*;
+use glam::{DVec3, Vec3};
+use std::collections::BTreeSet;
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_sim::chemistry::Chemistry;
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::{Particle, Solver, Touch};
+use vitriol_tests::gpu;
+
+/// Frames after which a glass of water has long slept, and seconds of one.
+const SETTLED: usize = 90;
+const FRAME: f64 = 1.0 / 90.0;
+
+/// Real size, with viscosity enough for 500 particles in a narrow glass to come to rest soon.
+fn calm() -> Parameters {
+    Parameters {
+        viscosity: 0.1,
+        carry_rate: 5.4,
+        sleep: true,
+        ..parameters()
+    }
+}
+
+fn glass(particles: Vec<Particle>, lanes: u32) -> Setup {
+    Setup {
+        lanes: Some(lanes),
+        ..Setup::new(calm(), vec![narrow_glass()], particles)
+    }
+}
+
+fn still() -> Vec<Particle> {
+    water(&narrow_glass(), 0, Pose::IDENTITY, 500)
+}
+
+/// Runs frames until all liquid sleeps but `awake` particles; their number.
+fn fall_asleep(gpu: &Gpu, solver: &Solver, poses: &[Pose], awake: u32) -> usize {
+    let slept = (0..SETTLED).find(|_| {
+        frames(gpu, solver, poses, 1);
+        solver.awake().unwrap() == awake
+    });
+    slept.expect("comes to rest")
+}
+
+/// Not one bit of the liquid changes while it sleeps, and its load on the glass stays its weight.
+#[test]
+fn what_sleeps_stays() {
+    let gpu = gpu::device();
+    for lanes in lanes(&gpu) {
+        let mut setup = glass(still(), lanes);
+        setup.loads = true;
+        let solver = setup.solver(&gpu);
+        let slept = fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+        // Not before nothing happened for 0.2 s.
+        assert!(slept >= 18, "{slept}");
+        // One frame more, in which nothing is sorted.
+        frames(&gpu, &solver, &[Pose::IDENTITY], 1);
+        let before = solver.snapshot().unwrap();
+        let weight = before.positions.len() as f64 * setup.parameters.particle_mass() * 9.81;
+        for _ in 0..5 {
+            let load = frame(&gpu, &solver, &[Pose::IDENTITY], &[Pose::IDENTITY])[0];
+            let push = -f64::from(load.impulse[1]) / FRAME;
+            assert!((push / weight - 1.0).abs() < 0.1, "{push} N of {weight}");
+        }
+        let after = solver.snapshot().unwrap();
+        assert!(after == before, "{lanes} lanes");
+    }
+}
+
+/// A drop that falls from 3 m: the liquid is awake again while the drop is still out of the reach of its forces.
+#[test]
+fn what_falls_wakes_liquid_before_it_meets_it() {
+    let gpu = gpu::device();
+    for lanes in lanes(&gpu) {
+        let mut particles = still();
+        particles.push(drop_at(DVec3::new(0.0, 3.0, 0.0), DVec3::ZERO));
+        let solver = glass(particles, lanes).solver(&gpu);
+        let (mut slept, mut gap) = (0, f64::INFINITY);
+        for _ in 0..SETTLED {
+            frames(&gpu, &solver, &[Pose::IDENTITY], 1);
+            let found = self::particles(&solver.snapshot().unwrap());
+            let (drop, liquid) = found.split_last().unwrap();
+            let near = liquid
+                .iter()
+                .map(|it| it.position.distance(drop.position))
+                .fold(f64::INFINITY, f64::min);
+            if solver.awake().unwrap() == 1 {
+                slept += 1;
+                gap = near;
+            } else if slept > 0 {
+                break;
+            }
+        }
+        assert!(slept > 10, "{slept} frames");
+        assert_eq!(solver.awake().unwrap(), 501);
+        // Two frames of its fall, and the support radius.
+        assert!(gap > 2.0 * 7.0 * FRAME + H, "{gap} m");
+    }
+}
+
+/// Glass that is moved takes its liquid along in the same frame.
+#[test]
+fn glass_that_is_moved_wakes_its_liquid() {
+    let gpu = gpu::device();
+    let solver = glass(still(), 1).solver(&gpu);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+    let mut pose = Pose::IDENTITY;
+    for _ in 0..10 {
+        let next = at(pose.position.x + 0.004, 0.0, 0.0);
+        frame(&gpu, &solver, &[pose], &[next]);
+        pose = next;
+        assert_eq!(solver.awake().unwrap(), 500);
+    }
+    let found = particles(&solver.snapshot().unwrap());
+    let profile = narrow_glass();
+    let inside = |it: &Found| {
+        let local = it.position - pose.position.as_dvec3();
+        profile.is_inside(local.x.hypot(local.z), local.y)
+    };
+    assert!(found.iter().all(inside), "liquid was left behind");
+}
+
+/// A glass that drifts by less than counts as motion in a frame is noticed all the same.
+#[test]
+fn a_slow_drift_wakes_liquid() {
+    let gpu = gpu::device();
+    let solver = glass(still(), 1).solver(&gpu);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+    let mut pose = Pose::IDENTITY;
+    let woken = (0..40).find(|_| {
+        let next = at(pose.position.x + 1e-5, 0.0, 0.0);
+        frame(&gpu, &solver, &[pose], &[next]);
+        pose = next;
+        solver.awake().unwrap() > 0
+    });
+    assert!(woken.is_some_and(|frames| frames < 12), "{woken:?}");
+}
+
+/// A rod that stirs, and another glass that comes near: the first moves no glass, the second touches nothing.
+#[test]
+fn a_rod_and_another_glass_wake_liquid() {
+    let gpu = gpu::device();
+    let mut setup = glass(still(), 1);
+    setup.tools = true;
+    let solver = setup.solver(&gpu);
+    let poses = [Pose::IDENTITY];
+    fall_asleep(&gpu, &solver, &poses, 0);
+    let mut rod = Touch {
+        ends: [Vec3::new(0.0, 0.005, 0.0), Vec3::new(0.0, 0.2, 0.0)],
+        velocities: [Vec3::ZERO; 2],
+        radius: 0.0035,
+        wipes: false,
+    };
+    let touch = |rod: &Touch| {
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        solver.handle(&mut rec, rod, FRAME).unwrap();
+        solver.record(&mut rec, &poses, &poses).unwrap();
+        gpu.submit(rec).unwrap().wait().unwrap();
+        solver.awake().unwrap()
+    };
+    assert_eq!(touch(&rod), 0, "a rod that stands still");
+    rod.velocities = [0.1 * Vec3::X; 2];
+    assert_eq!(touch(&rod), 500);
+
+    let mut setup = glass(still(), 1);
+    setup.flasks.push(narrow_glass());
+    let solver = setup.solver(&gpu);
+    let far = at(0.3, 0.0, 0.0);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY, far], 0);
+    let mut x = 0.3;
+    while solver.awake().unwrap() == 0 {
+        let [from, to] = [x, x - 0.01].map(|x| [Pose::IDENTITY, at(x, 0.0, 0.0)]);
+        frame(&gpu, &solver, &from, &to);
+        x -= 0.01;
+        assert!(x > 0.05, "still asleep");
+    }
+    assert!(x < 0.2, "awake with 0.3 m between them");
+}
+
+/// While one glass sleeps and another is shaken, lists are made anew all the time; those of what sleeps lack nothing, and the
+/// others have nothing of it.
+#[test]
+fn lists_of_what_sleeps_stay_whole() {
+    let gpu = gpu::device();
+    for lanes in lanes(&gpu) {
+        let mut particles = still();
+        let other = at(0.3, 0.0, 0.0);
+        particles.extend(water(&narrow_glass(), 1, other, 300));
+        let mut setup = glass(particles, lanes);
+        setup.flasks.push(narrow_glass());
+        let solver = setup.solver(&gpu);
+        fall_asleep(&gpu, &solver, &[Pose::IDENTITY, other], 0);
+        let mut x = 0.3;
+        for n in 0..12 {
+            let next = if n % 4 < 2 { x + 0.006 } else { x - 0.006 };
+            let [from, to] = [x, next].map(|x| [Pose::IDENTITY, at(x, 0.0, 0.0)]);
+            frame(&gpu, &solver, &from, &to);
+            x = next;
+            assert_eq!(solver.awake().unwrap(), 300, "frame {n}");
+        }
+        let state = solver.snapshot().unwrap();
+        let list = List::of(&state, setup.parameters.list_capacity());
+        // Those that sleep are the last.
+        let flask = |slot: usize| state.flask_of(slot);
+        assert!((0..300).all(|slot| flask(slot) != Some(0)));
+        assert!((300..800).all(|slot| flask(slot) == Some(0)));
+        let place = |slot: usize| {
+            let [x, y, z, _] = state.positions[slot].map(f64::from);
+            DVec3::new(x, y, z)
+        };
+        for slot in 300..800 {
+            let own: BTreeSet<_> = list.neighbours[slot].iter().copied().collect();
+            let near = |other: &usize| {
+                *other != slot && flask(*other) == Some(0) && place(slot).distance(place(*other)) < H
+            };
+            let must: BTreeSet<_> = (0..800).filter(near).collect();
+            let missed: Vec<_> = must.difference(&own).collect();
+            assert!(missed.is_empty(), "{lanes} lanes, {slot} lacks {missed:?}");
+        }
+        let awake = &list.neighbours[..300];
+        assert!(awake.iter().flatten().all(|&other| other < 300));
+        assert!(awake.iter().any(|own| own.len() > 20));
+    }
+}
+
+/// A state that is taken up while one glass sleeps and another moves goes on with the same bits, on a solver that has seen nothing.
+#[test]
+fn a_restored_sleep_goes_on_with_the_same_bits() {
+    let gpu = gpu::device();
+    let other = at(0.3, 0.0, 0.0);
+    let mut particles = still();
+    particles.extend(water(&narrow_glass(), 1, other, 300));
+    let mut setup = glass(particles, 1);
+    setup.flasks.push(narrow_glass());
+    let solver = setup.solver(&gpu);
+    let pose = |x: f32| [Pose::IDENTITY, at(x, 0.0, 0.0)];
+    fall_asleep(&gpu, &solver, &pose(0.3), 0);
+    frame(&gpu, &solver, &pose(0.3), &pose(0.305));
+    assert_eq!(solver.awake().unwrap(), 300);
+    let state = solver.snapshot().unwrap();
+    let fresh = setup.solver(&gpu);
+    fresh.restore(&state).unwrap();
+    let then = |solver: &Solver| {
+        // The sleeper is woken too.
+        frame(&gpu, solver, &pose(0.305), &pose(0.3));
+        frame(&gpu, solver, &pose(0.3), &[at(0.005, 0.0, 0.0), other]);
+        frames(&gpu, solver, &[at(0.005, 0.0, 0.0), other], 3);
+        solver.snapshot().unwrap()
+    };
+    let [on, anew] = [&solver, &fresh].map(then);
+    assert!(on == anew);
+}
+
+/// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, and its density within the
+/// error of these substeps (0.4 %).
+#[test]
+fn liquid_that_slept_stands_as_if_it_had_not() {
+    let gpu = gpu::device();
+    let stands = |sleep: bool| {
+        let mut setup = glass(still(), 1);
+        setup.parameters.sleep = sleep;
+        let solver = setup.solver(&gpu);
+        frames(&gpu, &solver, &[Pose::IDENTITY], SETTLED);
+        assert_eq!(solver.awake().unwrap() == 0, sleep);
+        let moved = at(0.002, 0.0, 0.0);
+        frame(&gpu, &solver, &[Pose::IDENTITY], &[moved]);
+        frames(&gpu, &solver, &[moved], 30);
+        let found = particles(&solver.snapshot().unwrap());
+        let heights: f64 = found.iter().map(|it| it.position.y).sum();
+        let densities = densities(&gpu, &solver);
+        let error: f64 = densities.iter().map(|it| (it - 1.0).max(0.0)).sum();
+        [heights, error].map(|sum| sum / found.len() as f64)
+    };
+    let [slept, not] = [true, false].map(stands);
+    assert!((slept[0] - not[0]).abs() < 0.01 * D, "{slept:?} {not:?}");
+    assert!((slept[1] - not[1]).abs() < 0.004, "{slept:?} {not:?}");
+}
+
+/// Liquid that is warm, or not even, goes on: it would cool, or mix.
+#[test]
+fn warm_and_uneven_liquid_stays_awake() {
+    let gpu = gpu::device();
+    let law = Chemistry::Physical(with_bubbles());
+    let asleep = |of: &dyn Fn(f64) -> (f64, f64)| {
+        let p = with(law.clone(), calm());
+        let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, of));
+        let solver = setup.solver(&gpu);
+        frames(&gpu, &solver, &[Pose::IDENTITY], SETTLED);
+        solver.awake().unwrap() == 0
+    };
+    assert!(asleep(&|_| (20.0, 0.98)));
+    assert!(!asleep(&|_| (30.0, 0.98)), "10 K above the room");
+    // Water over acid, two fractions that lie 1 % apart.
+    let split = |height: f64| (20.0, if height > 0.5 { 0.97 } else { 0.98 });
+    assert!(!asleep(&split), "two layers");
+}
+
+/// Liquid over a plate that is on never sleeps.
+#[test]
+fn a_plate_keeps_liquid_awake() {
+    let gpu = gpu::device();
+    let mut p = with(Chemistry::Physical(with_bubbles()), calm());
+    p.heaters = vec![50.0];
+    let setup = Setup::new(p, vec![narrow_glass()], glass_of(200, |_| (20.0, 0.0)));
+    let solver = setup.solver(&gpu);
+    frames(&gpu, &solver, &[Pose::IDENTITY], 30);
+    assert_eq!(solver.awake().unwrap(), 200);
+}
