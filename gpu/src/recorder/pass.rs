@@ -80,6 +80,11 @@ impl<'r> Pass<'r> {
         self
     }
 
+    /// Invocations of a workgroup along x.
+    pub fn workgroup_size(&self) -> u32 {
+        self.pipeline.workgroup_size[0]
+    }
+
     /// Records the pass with at least `count` invocations along x: whole
     /// workgroups, so the shader leaves out those past `count`. None for 0.
     ///

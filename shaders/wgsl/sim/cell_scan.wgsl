@@ -12,6 +12,15 @@ override SLEEP: bool = false;
 @group(0) @binding(3) var<storage, read_write> long_lists: array<u32>;
 /// See `common/liquid/awake.wgsl`.
 @group(0) @binding(59) var<storage, read_write> sleep: array<u32>;
+/// Sizes of the dispatches over particles that do not sleep, as `solver/sleep.rs` reads them: in workgroups of `GROUP`, and of 64.
+@group(0) @binding(4) var<storage, read_write> awake_args: array<u32>;
+
+/// Notes how many particles do not sleep. One workgroup runs in any case, as some passes have more to do.
+fn note_awake(count: u32) {
+    sleep[0] = count;
+    awake_args[0] = max((count * LANES + GROUP - 1u) / GROUP, 1u);
+    awake_args[4] = max((count * LANES + 63u) / 64u, 1u);
+}
 
 var<workgroup> sums: array<u32, 256>;
 
@@ -44,7 +53,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let before = before_block + sums[local] - total;
     // What comes before the second half does not rest.
-    if (SLEEP && first == 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { sleep[0] = before; }
+    if (SLEEP && first == 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { note_awake(before); }
     cell_starts[first] = before;
     cell_starts[first + 1u] = before + a;
     cell_starts[first + 2u] = before + b;

@@ -5,7 +5,7 @@
 //!include common/chemistry/slots.wgsl
 //!include common/chemistry/turnover_plan.wgsl
 //!include common/liquid/flask_sleep.wgsl
-//!include common/liquid/list_check.wgsl
+//!include common/liquid/list_asked.wgsl
 //!include common/liquid/step.wgsl
 
 /// Frames for which nothing may happen before liquid rests.
@@ -76,7 +76,7 @@ fn main() {
     }
     sleep[1] = select(0u, 1u, changed);
     if (changed) {
-        ask_for_list();
+        ask_for_list(COUNT);
         // Nothing is known of the eddies of what woke up.
         if (DORMANT_TURNOVER) { atomicStore(&turnover_plan.fastest, 0xffffffffu); }
     }

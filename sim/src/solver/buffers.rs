@@ -179,6 +179,8 @@ buffers! {
         cell_items: s.own_items,
         /// Number of particles that do not rest, whether that changed, and by flask whether its liquid rests.
         sleep: s.sleep,
+        /// Sizes of the dispatches over particles that do not sleep.
+        awake_args: s.awake_args,
         /// What was noted of each flask to tell.
         flask_sleeps: s.flask_sleeps,
         solution: words_of(&s.solution),
@@ -241,6 +243,7 @@ struct Sizes {
     blocks: u64,
     own_items: u64,
     sleep: u64,
+    awake_args: u64,
     flask_sleeps: u64,
     /// Blocks of surface tension's nodes, and the nodes.
     slots: u64,
@@ -294,7 +297,7 @@ impl Sizes {
         let dew = dew_places(parameters, spec.flasks.len());
         let solution = physical.then(|| SolutionTable::new().rows());
         let lamellae = feed.map(|feed| Lamellae::of(feed).rows());
-        let [sleep, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
+        let [sleep, awake_args, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
         let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
         Self {
             n,
@@ -313,6 +316,7 @@ impl Sizes {
             blocks: grid.blocks().into(),
             own_items: grid.own_items(count),
             sleep,
+            awake_args,
             flask_sleeps,
             slots,
             nodes,

@@ -82,9 +82,7 @@ impl Solver {
         };
         rec.fill(&self.buffers.colour_keys, 0)?;
         rec.upload(&self.buffers.colour_args, &[0u32, 1, 1, 0, 0, 1, 1, 0])?;
-        self.pass(rec, &tension.colour)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
+        self.over_awake(self.pass(rec, &tension.colour).constants(step))?;
         let blocks = &self.buffers.colour_args;
         self.pass(rec, &tension.rim).indirect(blocks, 0)?;
         self.pass(rec, &tension.walls)
@@ -99,9 +97,6 @@ impl Solver {
             tension: step.time * substeps as f32,
             ..*step
         };
-        self.pass(rec, &tension.push)
-            .constants(&step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
+        self.over_awake(self.pass(rec, &tension.push).constants(&step))
     }
 }

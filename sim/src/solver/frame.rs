@@ -102,8 +102,7 @@ impl Solver {
             }
             // 28, what its confinement needs of the neighbours.
             if let Some(vorticity) = &p.vorticity {
-                self.pass(rec, vorticity)
-                    .invocations(self.count * self.lanes)?;
+                self.over_awake(self.pass(rec, vorticity))?;
             }
             // End of 26, 27 and 28, and 16 of the next: one pass over the neighbours.
             let last = n + 1 == substeps;
@@ -112,7 +111,7 @@ impl Solver {
             self.bubble(rec, &step, n)?; // end of 26, of bubbles
         }
         for pass in &p.eddies {
-            self.pass(rec, pass).invocations(self.count * self.lanes)?;
+            self.over_awake(self.pass(rec, pass))?;
         }
         if let Some([_, calm]) = &p.sleep {
             self.pass(rec, calm)
@@ -138,7 +137,9 @@ impl Solver {
     /// [`SolverError::Gpu`] where the device refuses.
     pub fn record_density(&self, rec: &mut Recorder) -> Result<Readback, SolverError> {
         let step = self.step(self.parameters.substeps - 1);
-        self.over_particles(rec, &self.pipelines.density, &step)?;
+        self.pass(rec, &self.pipelines.density)
+            .constants(&step)
+            .invocations(self.count * self.lanes)?;
         Ok(rec.read_back(&self.buffers.density)?)
     }
 
@@ -199,15 +200,14 @@ impl Solver {
         pass.begin(rec, &self.buffers.all(&self.vessels))
     }
 
-    /// A pass in which all lanes of each particle take part.
+    /// A pass in which all lanes of each particle that does not sleep take part.
     fn over_particles(
         &self,
         rec: &mut Recorder,
         pass: &SolverPass,
         step: &Step,
     ) -> Result<(), SolverError> {
-        let count = self.count * self.lanes;
-        Ok(self.pass(rec, pass).constants(step).invocations(count)?)
+        self.over_awake(self.pass(rec, pass).constants(step))
     }
 
     fn has_loads(&self) -> bool {

@@ -367,8 +367,6 @@ impl Constants {
             ("CELL_BITS_Z", f64::from(grid.bits[2])),
             ("CELL_ITEMS", f64::from(grid.cell_items(count))),
             ("CELL_GROUPS", f64::from(grid.blocks())),
-            ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
-            ("LIST_GROUPS", f64::from((count * list_lanes).div_ceil(64))),
             ("LIST_SLACK", reach * REACH_OF_PREDICTION),
             ("LIST_REACH", reach),
             ("FLASKS", spec.flasks.len() as f64),

@@ -4,15 +4,19 @@ use super::spec::SolverSpec;
 use super::steam::ROOM_TEMPERATURE;
 use super::transfer::read;
 use super::wall_heat;
-use super::{Solver, SolverError};
+use super::{Solver, SolverError, lanes};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
+use vitriol_gpu::Pass;
 
 /// Words of `sleep` before those of flasks: the number of particles that do not rest is the first.
 const HEAD: usize = 2;
 
 /// Words of a flask in `flask_sleeps`.
 const FLASK_WORDS: usize = 12;
+
+/// Where in `awake_args` the size of a dispatch in workgroups of 64 is, bytes.
+const IN_64: u64 = 16;
 
 /// Time for which nothing may happen before liquid rests, s. Chosen: half a period of the slosh in a beaker of 80 mm is 0.15 s.
 const CALM_TIME: f64 = 0.2;
@@ -64,12 +68,12 @@ pub(super) fn is_on(p: &Parameters, flasks: usize) -> bool {
     p.sleep && flasks > 0 && p.heaters.iter().all(|&watts| watts == 0.0)
 }
 
-/// Words of `sleep` and of `flask_sleeps`.
-pub(super) fn words(p: &Parameters, flasks: usize) -> [u64; 2] {
+/// Words of `sleep`, `awake_args` and `flask_sleeps`.
+pub(super) fn words(p: &Parameters, flasks: usize) -> [u64; 3] {
     if is_on(p, flasks) {
-        [HEAD + flasks, FLASK_WORDS * flasks].map(|words| words as u64)
+        [HEAD + flasks, 8, FLASK_WORDS * flasks].map(|words| words as u64)
     } else {
-        [0; 2]
+        [0; 3]
     }
 }
 
@@ -97,6 +101,25 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
 }
 
 impl Solver {
+    /// Ends a pass in which all lanes of each particle that does not sleep take part.
+    pub(super) fn over_awake(&self, pass: Pass<'_>) -> Result<(), SolverError> {
+        if !is_on(&self.parameters, self.flasks) || std::env::var_os("VITRIOL_DIRECT").is_some() {
+            return Ok(pass.invocations(self.count * self.lanes)?);
+        }
+        let in_64 = pass.workgroup_size() == 64;
+        Ok(pass.indirect(&self.buffers.awake_args, if in_64 { IN_64 } else { 0 })?)
+    }
+
+    /// `awake_args` of a state, as `sim/cell_scan.wgsl` writes them.
+    pub(super) fn awake_args(&self, state: &SleepState) -> Vec<u32> {
+        let Some(&awake) = state.sleep.first() else {
+            return Vec::new();
+        };
+        let groups = |of: u32| (awake * self.lanes).div_ceil(of).max(1);
+        let group = lanes::group(&self.gpu, self.lanes);
+        vec![groups(group), 1, 1, 0, groups(64), 1, 1, 0]
+    }
+
     /// Number of particles whose liquid did not rest in the last frame; waits for the device.
     ///
     /// # Errors

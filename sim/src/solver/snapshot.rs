@@ -253,6 +253,7 @@ impl Solver {
         rec.fill(&b.cell_counts, 0)?;
         rec.fill(&b.block_counts, 0)?;
         rec.upload(&b.turnover_plan, &[self.awake_turnover()])?;
+        rec.upload(&b.awake_args, &self.awake_args(&state.sleep))?;
         if let Some(bubbles) = self.parameters.bubbles() {
             // At a frame's end nothing is to be born.
             rec.upload(&b.claims, &dormant::unclaimed(bubbles))?;
