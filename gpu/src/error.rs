@@ -65,15 +65,16 @@ pub enum GpuError {
     },
     /// Device or host memory is used up.
     #[error(
-        "no memory for \"{label}\" ({bytes} bytes): {cause}; use fewer particles or a smaller \
-         picture, or close other programs that use the device"
+        "no memory for \"{label}\"{}: {cause}; use fewer particles or a smaller \
+         picture, or close other programs that use the device",
+        match bytes { Some(bytes) => format!(" ({bytes} bytes)"), None => String::new() }
     )]
     OutOfMemory {
-        /// Label of the resource.
+        /// Label of the resource, or the call that failed.
         label: String,
-        /// Bytes asked for.
-        bytes: u64,
-        /// The allocator's message.
+        /// Bytes asked for; `None` of a call whose need of memory only the driver has.
+        bytes: Option<u64>,
+        /// The allocator's message, or the call's result.
         cause: String,
     },
     /// A buffer is larger than a shader may bind.
@@ -219,5 +220,35 @@ impl GpuError {
             vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost { last_pass: None },
             _ => Self::Vulkan { call, result },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a driver needed is told where it is known, and a size that nobody asked for is not.
+    #[test]
+    fn a_lack_of_memory_tells_a_size_that_is_known() {
+        let message = |bytes| {
+            let label = "list".to_owned();
+            let cause = "full".to_owned();
+            GpuError::OutOfMemory {
+                label,
+                bytes,
+                cause,
+            }
+            .to_string()
+        };
+        let known = message(Some(4096));
+        assert!(
+            known.starts_with("no memory for \"list\" (4096 bytes): full; use"),
+            "{known}"
+        );
+        let unknown = message(None);
+        assert!(
+            unknown.starts_with("no memory for \"list\": full; use"),
+            "{unknown}"
+        );
     }
 }

@@ -200,7 +200,7 @@ impl Inner {
             vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
                 GpuError::OutOfMemory {
                     label: call.to_owned(),
-                    bytes: 0,
+                    bytes: None,
                     cause: result.to_string(),
                 }
             }

@@ -43,7 +43,7 @@ fn allocate(
         })
         .map_err(|error| GpuError::OutOfMemory {
             label: label.to_owned(),
-            bytes: requirements.size,
+            bytes: Some(requirements.size),
             cause: error.to_string(),
         })
 }

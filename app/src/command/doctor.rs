@@ -5,7 +5,15 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_gpu::advice::DRIVER;
+use vitriol_gpu::vk::PhysicalDeviceType;
 use vitriol_run::{Failure, Format, emit};
+
+/// Major version of Mesa from which on [`SLOW_MESA`] is not said.
+const QUICK_MESA: u32 = 25;
+
+/// What is advised of an older software driver of Mesa's, as was measured in 2026-11. The LLVM matters: Mesa 25 was slower than 22.3
+/// where both had LLVM 15 (docs/measurements/performance.md).
+const SLOW_MESA: &str = "a newer driver is quicker: Mesa 25 with LLVM 19 gives the same state and takes 0.83 of Mesa 22.3's time";
 
 #[derive(Debug, Serialize)]
 struct Findings {
@@ -40,6 +48,9 @@ struct Device {
     missing: Vec<String>,
     /// Optional things that it lacks, with what is done instead.
     missing_optional: Vec<String>,
+    /// What would make it quicker.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    advice: Option<&'static str>,
     extensions: Vec<String>,
 }
 
@@ -80,6 +91,7 @@ fn look() -> Findings {
         .map(|device| Device {
             index: device.index,
             name: device.name,
+            advice: advice(device.kind, &device.driver),
             driver: device.driver,
             vulkan: device.api,
             kind: format!("{:?}", device.kind)
@@ -110,6 +122,14 @@ fn look() -> Findings {
         openxr,
         missing,
     }
+}
+
+/// What is advised for a device of that kind and driver.
+fn advice(kind: PhysicalDeviceType, driver: &str) -> Option<&'static str> {
+    // Mesa's words are such as "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)".
+    let (_, version) = driver.split_once("Mesa ")?;
+    let major: u32 = version.split('.').next()?.parse().ok()?;
+    (kind == PhysicalDeviceType::CPU && major < QUICK_MESA).then_some(SLOW_MESA)
 }
 
 /// Whether there is a screen for the window of `vitriol desk`, if the build has that.
@@ -173,6 +193,9 @@ fn describe(findings: &Findings) -> String {
         for lack in &device.missing_optional {
             let _ = writeln!(text, "      without {lack}");
         }
+        if let Some(advice) = device.advice {
+            let _ = writeln!(text, "      {advice}");
+        }
     }
     if let Some(openxr) = &findings.openxr {
         describe_openxr(openxr, &mut text);
@@ -231,6 +254,7 @@ fn sentence(message: &str) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -245,6 +269,61 @@ mod tests {
             assert!(!has || !named(&device.missing_optional, "reconvergence"));
             let [least, usual] = device.subgroup_sizes;
             assert!(least <= usual && usual.is_power_of_two(), "{least} {usual}");
+        }
+    }
+
+    /// Of Mesa's software driver alone, by its words as drivers say them.
+    #[test]
+    fn an_old_software_driver_is_told_what_is_quicker() {
+        let cpu = PhysicalDeviceType::CPU;
+        for (kind, driver, advised) in [
+            (cpu, "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", true),
+            (cpu, "llvmpipe Mesa 24.3.0-devel (LLVM 18.1.8)", true),
+            (cpu, "llvmpipe Mesa 25.0.7-2 (LLVM 19.1.7)", false),
+            (cpu, "llvmpipe Mesa 100.1.0 (LLVM 40.1.0)", false),
+            (cpu, "llvmpipe Mesa (LLVM 15.0.6)", false),
+            (cpu, "SwiftShader driver 5.0.0", false),
+            (PhysicalDeviceType::DISCRETE_GPU, "radv Mesa 22.3.6", false),
+        ] {
+            assert_eq!(advice(kind, driver).is_some(), advised, "{driver}");
+        }
+    }
+
+    /// The advice is one line below its device, and JSON has it too.
+    #[test]
+    fn advice_is_one_line_of_its_device() {
+        let device = |driver: &str| Device {
+            index: 0,
+            name: "llvmpipe".to_owned(),
+            driver: driver.to_owned(),
+            vulkan: "1.3.230".to_owned(),
+            kind: "cpu".to_owned(),
+            usable: true,
+            subgroup_sizes: [8, 8],
+            maximal_reconvergence: false,
+            missing: Vec::new(),
+            missing_optional: Vec::new(),
+            advice: advice(PhysicalDeviceType::CPU, driver),
+            extensions: Vec::new(),
+        };
+        let of = |device: Device| Findings {
+            can_replay: true,
+            can_enter_vr: true,
+            screen: None,
+            devices: vec![device],
+            openxr: None,
+            missing: Vec::new(),
+        };
+        for (driver, advised) in [
+            ("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", 1),
+            ("llvmpipe Mesa 25.0.7 (LLVM 19.1.7)", 0),
+        ] {
+            let found = of(device(driver));
+            let text = describe(&found);
+            let lines = text.lines().filter(|line| line.contains("Mesa 25 with"));
+            assert_eq!(lines.count(), advised, "{text}");
+            let json = serde_json::to_value(&found).unwrap();
+            assert_eq!(json["devices"][0]["advice"].is_string(), advised == 1);
         }
     }
 }

@@ -91,7 +91,7 @@ pub(crate) fn open(
     })
     .map_err(|error| GpuError::OutOfMemory {
         label: "allocator".to_owned(),
-        bytes: 0,
+        bytes: None,
         cause: error.to_string(),
     })?;
     let kept = options.pipelines.as_deref().map(|folder| {

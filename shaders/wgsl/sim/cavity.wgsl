@@ -31,10 +31,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let radius = mix(bubble.radius_before, bubble.radius, step.cavity);
     if (radius <= 0.0 || bubble.cavity <= 0.0) { return; }
     let centre = mix(bubble.position_before, bubble.position, step.cavity);
-    let cell = cell_of(centre);
     let cells = clamp(i32(ceil((radius + REACH * SUPPORT) / CELL)), 1, CAVITY_CELLS);
     for (var n = id.x % LANES; n < count_around(cells); n += LANES) {
-        let run = cell_around(cell, cells, n);
+        let run = cell_within(centre, radius + SUPPORT, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let x = trial[j].xyz;
             let offset = x - centre;

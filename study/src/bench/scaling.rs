@@ -194,7 +194,7 @@ mod tests {
     fn only_a_lack_of_memory_skips_a_row() {
         let short = || GpuError::OutOfMemory {
             label: "list".into(),
-            bytes: 1,
+            bytes: Some(1),
             cause: "full".into(),
         };
         let large = GpuError::BufferTooLarge {

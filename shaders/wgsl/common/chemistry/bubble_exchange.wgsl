@@ -63,7 +63,6 @@ struct Gained {
 fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i32, lane: u32, time: f32) -> Gained {
     var mass: QuantaSum;
     var enthalpy: QuantaSum;
-    let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), is_there(bubble) && s.weight > 0.0);
     let own_specific = bubble.enthalpy / max(bubble.mass, 1e-20);
     let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
@@ -71,7 +70,7 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
     let gas_share = held / (VOLUME * max(s.weight, 1e-12));
     var n = lane;
     for (; n < count; n += LANES) {
-        let run = cell_around(cell, cells, n);
+        let run = cell_within(bubble.position, reach, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
             let square = dot(offset, offset);

@@ -50,9 +50,8 @@ fn drag_along(bubble: Bubble, motion: Motion, reach: f32, cells: i32, lane: u32)
     if (speed <= 0.0 || bubble.cavity <= 0.0) { return; }
     let wake = bubble.position - motion.relative * (reach / speed);
     let force = motion.drag * (VOLUME / (FULL * reach * reach * reach));
-    let cell = cell_of(wake);
     for (var n = lane; n < count_around(cells); n += LANES) {
-        let run = cell_around(cell, cells, n);
+        let run = cell_within(wake, reach, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - wake;
             let weight = share_at(dot(offset, offset) / (reach * reach));

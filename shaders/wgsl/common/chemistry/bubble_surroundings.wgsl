@@ -117,10 +117,9 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     let share = bubble.cavity;
     var below = 0.0;
     var own_share = 0.0;
-    let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), is_there(bubble));
     for (var n = lane; n < count; n += LANES) {
-        let run = cell_around(cell, cells, n);
+        let run = cell_within(bubble.position, reach, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
             let square = dot(offset, offset);

@@ -23,10 +23,9 @@ const MOST_THROWN: f32 = 0.05;
 /// Takes liquid of `mass` (V0·ρ0) from the particles that touch a bubble; all lanes must ask, those of others with 0.
 fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, reach: f32, cells: i32, lane: u32) -> Liquid {
     var sums = array<QuantaSum, 3>();
-    let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), mass > 0.0);
     for (var n = lane; n < count; n += LANES) {
-        let run = cell_around(cell, cells, n);
+        let run = cell_within(bubble.position, reach, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
             let square = dot(offset, offset);

@@ -216,6 +216,41 @@ fn a_bubble_wider_than_half_its_vessel_divides() {
     assert!((held(&state) / blown - 1.0).abs() < 1e-5);
 }
 
+/// Mesa 22.3's software driver ends the loops of an invocation after 65,535 turns together. A cavity of nearly the greatest radius, with
+/// liquid on all sides, is looked around three times in a step: by all cells of a cube that took twice as many turns
+/// (`docs/measurements/solver.md`).
+#[test]
+fn a_wide_cavity_has_all_that_is_around_it() {
+    let device = gpu::device();
+    let radius = 6.5 * H;
+    let side = 36;
+    let sites = (0..side * side * side).map(|n| {
+        let site = [n % side, n / side % side, n / (side * side)];
+        DVec3::from_array(site.map(|k: i32| (f64::from(k) + 0.5 * f64::from(1 - side)) * D))
+    });
+    let around = sites.filter(|site| site.length() > radius);
+    let particles = around.map(|site| drop_at(site, DVec3::ZERO)).collect();
+    let weightless = Parameters {
+        gravity: [0.0; 3],
+        ..quick()
+    };
+    let solver = Setup::new(of(lasting(), weightless), Vec::new(), particles).solver(&device);
+    let mut state = solver.snapshot().unwrap();
+    let p = solver.parameters().clone();
+    let motion = [DVec3::ZERO, DVec3::X * 0.1];
+    state.put_bubble(&p, 0, 0, motion, [1e-4, 20.0]);
+    let record = &mut state.bubbles_mut()[0];
+    (record.air, record.air_temperature) = (air(&p, radius), 20.0);
+    (record.mass, record.enthalpy) = (0.0, 0.0);
+    solver.restore(&state).unwrap();
+    frames(&device, &solver, &[], 1);
+    let bubble = solver.snapshot().unwrap().bubbles()[0];
+    // It is still what was put there, so that it was looked around.
+    assert_eq!(bubble.cavity, 1.0);
+    assert!((f64::from(bubble.radius) / radius - 1.0).abs() < 0.01);
+    assert_eq!(solver.counters().unwrap().bubbles_cut, 0);
+}
+
 /// Liquid that falls freely has no pressure that would lift a bubble: one of 4 mm goes with it and its glass, where at rest it rises at
 /// 0.23 m/s. A tenth of that.
 #[test]
