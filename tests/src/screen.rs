@@ -26,6 +26,8 @@ pub mod key {
     pub const TAB: u32 = 0xff09;
     /// Escape.
     pub const ESCAPE: u32 = 0xff1b;
+    /// Home.
+    pub const HOME: u32 = 0xff50;
     /// The arrow to the left.
     pub const LEFT: u32 = 0xff51;
     /// The arrow that points up.
@@ -34,8 +36,16 @@ pub mod key {
     pub const RIGHT: u32 = 0xff53;
     /// The arrow that points down.
     pub const DOWN: u32 = 0xff54;
+    /// Page up.
+    pub const PAGE_UP: u32 = 0xff55;
+    /// Page down.
+    pub const PAGE_DOWN: u32 = 0xff56;
+    /// F11.
+    pub const F11: u32 = 0xffc8;
     /// Shift, of the left hand.
     pub const SHIFT: u32 = 0xffe1;
+    /// Ctrl, of the left hand.
+    pub const CONTROL: u32 = 0xffe3;
 }
 
 /// A button of the mouse.
@@ -164,7 +174,7 @@ impl Screen {
         until(&format!("a window of {part}"), || self.find(part))
     }
 
-    /// Counts from now on each window that is opened, see [`Screen::opened`].
+    /// Receives from now on what [`Screen::opened`] and [`Screen::asked_to_fill`] look for.
     pub fn watch(&self) {
         let events = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
         self.checked(self.connection.change_window_attributes(self.root, &events));
@@ -172,17 +182,38 @@ impl Screen {
 
     /// Windows that were opened since [`Screen::watch`] or the last call.
     pub fn opened(&self) -> usize {
+        let opens = |event: &Event| matches!(event, Event::CreateNotify(_));
+        self.events().filter(opens).count()
+    }
+
+    /// What windows asked the window manager for since [`Screen::watch`] or the last call: to fill the screen, or no longer (`false`).
+    /// There is no window manager here that does it (Extended Window Manager Hints 1.5, `_NET_WM_STATE`).
+    pub fn asked_to_fill(&self) -> Vec<bool> {
+        let (state, fills) = (
+            self.atom("_NET_WM_STATE"),
+            self.atom("_NET_WM_STATE_FULLSCREEN"),
+        );
+        let asks = |event: Event| match event {
+            Event::ClientMessage(it) if it.type_ == state => {
+                let [action, of, ..] = it.data.as_data32();
+                // 1 adds the state, and 0 removes it.
+                (of == fills).then_some(action == 1)
+            }
+            _ => None,
+        };
+        self.events().filter_map(asks).collect()
+    }
+
+    /// The events that came so far.
+    fn events(&self) -> impl Iterator<Item = Event> {
         // An answer comes after the events of earlier requests.
         let asked = self.connection.get_input_focus().expect("a question");
         asked.reply().expect("an answer");
-        let event = || {
+        std::iter::from_fn(move || {
             self.connection
                 .poll_for_event()
                 .expect("the screen's events")
-        };
-        std::iter::from_fn(event)
-            .filter(|event| matches!(event, Event::CreateNotify(_)))
-            .count()
+        })
     }
 
     /// A window's title; `None` of one without a title, or that is gone.

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use vitriol_run::arguments::size;
+use vitriol_session::desk::{FOV, FOVS};
 
 use super::session::SessionArgs;
 
@@ -17,7 +18,50 @@ pub struct DeskArgs {
     /// Let the window fill the screen; F11 changes that
     #[arg(long)]
     pub full_screen: bool,
+    /// Angle that the first view sees from top to bottom, degrees: less shows flasks larger, more shows more of the room
+    #[arg(long, value_name = "DEGREES", default_value_t = FOV, value_parser = fov, allow_negative_numbers = true)]
+    pub fov: f32,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,
+}
+
+/// The first view's angle, degrees.
+fn fov(text: &str) -> Result<f32, String> {
+    let [least, most] = FOVS;
+    match text.parse::<f32>() {
+        Ok(angle) if (least..=most).contains(&angle) => Ok(angle),
+        _ => Err(format!(
+            "give {least} to {most} degrees, such as {FOV}; `+` and `-` in the window change them later"
+        )),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use clap::Parser;
+
+    use crate::cli::{Cli, Command};
+
+    /// What `vitriol desk` is told to see, degrees.
+    fn fov(arguments: &[&str]) -> Result<f32, String> {
+        let cli = Cli::try_parse_from([&["vitriol", "desk"][..], arguments].concat());
+        match cli.map_err(|error| error.to_string())?.command {
+            Command::Desk(args) => Ok(args.fov),
+            _ => Err("another command".into()),
+        }
+    }
+
+    #[test]
+    fn a_field_of_view_has_bounds() {
+        assert_eq!(fov(&[]), Ok(56.0));
+        for (given, expected) in [("20", 20.0), ("62.5", 62.5), ("75", 75.0)] {
+            assert_eq!(fov(&["--fov", given]), Ok(expected));
+        }
+        for wrong in ["19.9", "75.1", "-40", "0", "nan", "inf", "40°"] {
+            let said = fov(&["--fov", wrong]).unwrap_err();
+            assert!(said.contains("20 to 75 degrees"), "{wrong}: {said}");
+        }
+    }
 }

@@ -40,6 +40,7 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     let spec = DeskSpec {
         size: args.size,
         full_screen: args.full_screen,
+        fov: args.fov,
         toggles: shared.grip == Grip::Toggle,
     };
     let (desk, window) = desk::open(&gpu, spec, decisions.clone())?;

@@ -105,6 +105,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--no-hints",
                 "--size",
                 "--full-screen",
+                "--fov",
                 "--device",
             ],
         ),

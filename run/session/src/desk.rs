@@ -1,11 +1,11 @@
 //! A desk in place of a headset: a window, whose picture is seen from an eye that goes round the bench, and hands that follow mouse and
 //! keyboard.
 
-mod clock;
 #[cfg(feature = "gamepad")]
 mod gamepad;
 mod hands;
 pub(crate) mod input;
+mod rate;
 mod view;
 
 use std::sync::Arc;
@@ -19,23 +19,27 @@ use vitriol_xr::{
     SessionState, Shown, Targets, Turn, View,
 };
 
-use self::clock::{Clock, rate};
 use self::hands::Hands;
 use self::input::{Input, Inputs};
+use self::rate::rate;
 use self::view::Viewpoint;
+pub use self::view::{FOV, FOVS};
 use crate::decision::Decision;
+use crate::frame_clock::FrameClock;
 use crate::mirror::{Display, Extent, Opening, Window};
 use crate::placement::{SCENE_TABLE, SEATED};
 use crate::reopening::Reopening;
 use crate::stand_in::EPOCH;
 
 /// How a desk's window opens, and what a click does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeskSpec {
     /// Width and height of the window as it opens, pixels of a screen of the usual density.
     pub size: [u32; 2],
     /// Whether it fills the screen.
     pub full_screen: bool,
+    /// Angle between the upper and the lower side of the first view, degrees, as [`FOVS`] allow.
+    pub fov: f32,
     /// Whether one click takes and the next puts down; else a hand holds while the button is down.
     pub toggles: bool,
 }
@@ -56,7 +60,7 @@ pub struct Desk {
     view: Viewpoint,
     hands: Hands,
     around: Around,
-    clock: Clock,
+    clock: FrameClock,
     index: u64,
     leaving: bool,
     name: String,
@@ -123,7 +127,7 @@ impl Desk {
         targets: Targets,
     ) -> Self {
         let largest = display.largest.map(|side| side.max(1));
-        let (rate, view) = (rate(display.rate_mhz), Viewpoint::default());
+        let (rate, view) = (rate(display.rate_mhz), Viewpoint::new(spec.fov));
         Self {
             targets,
             largest,
@@ -140,7 +144,7 @@ impl Desk {
             // No frame takes simulated time before the first one is shown.
             // Its longest frame is 0: no hand moves before the bench is there.
             around: Around::default(),
-            clock: Clock::new(rate),
+            clock: FrameClock::new(rate),
             index: 0,
             leaving: false,
             name: format!("a window at {rate:.0} Hz on {}", gpu.info().name),
@@ -179,8 +183,8 @@ impl Desk {
         }
     }
 
-    /// Head and hands in a frame that is shown at `time` (ns), `passed` seconds after the last one.
-    fn poses(&mut self, time: i64, passed: f32) -> PoseFrame {
+    /// Head and hands in a frame that is shown `passed` seconds after the last one.
+    fn poses(&mut self, passed: f32) -> PoseFrame {
         let [width, height] = self.wanted.map(|side| side as f32);
         let turns = self.inputs.turns(passed);
         let panel = self.around.panel;
@@ -196,7 +200,7 @@ impl Desk {
             hands,
             scenario: Vec::new(),
             info: FrameInfo {
-                xr_time: EPOCH + time,
+                xr_time: EPOCH + (1e9 * self.clock.time()).round() as i64,
                 period_ns: self.clock.period_ns(),
                 fov: [self.view.fov(); 2],
                 session_state: SessionState::Focused,
@@ -235,7 +239,7 @@ impl Headset for Desk {
             self.gpu = gpu;
             return Ok(Turn::Renewed);
         }
-        let (time, passed) = self.clock.wait();
+        let passed = self.clock.wait() as f32;
         if !self.take_events() {
             self.leaving = true;
             return Ok(Turn::Ended);
@@ -247,7 +251,7 @@ impl Headset for Desk {
         }
         let frame = HeadsetFrame {
             index: self.index,
-            poses: self.poses(time, passed),
+            poses: self.poses(passed),
             should_render: window.is_some(),
             recentred: false,
             lost: false,

@@ -12,6 +12,7 @@ pub mod desk;
 pub mod fade;
 pub mod first_minute;
 pub mod foveating;
+mod frame_clock;
 pub mod governor;
 pub mod handle;
 pub mod haptics;

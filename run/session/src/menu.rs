@@ -62,7 +62,7 @@ pub fn mouse_lines() -> String {
         ),
         (
             "right button",
-            "held and moved up or down: tilts what the hand holds",
+            "held and moved to a side: tilts to it what the hand holds",
         ),
         ("Q, E", "tilt to the left, to the right"),
         ("W", "held: swirls what the hand holds"),

@@ -252,22 +252,33 @@ fn button(at: Pos2, pressed: bool) -> Event {
     }
 }
 
-/// The pixel that a ray along −Z meets, if it meets the panel's face, and where in the scene's stage that is.
-fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<(Pos2, Vec3)> {
-    let panel_from_scene = scene_from_panel().inverse();
-    let from = panel_from_scene.transform_point(scene_from_aim.position);
-    let along = panel_from_scene.orientation * scene_from_aim.orientation * Vec3::NEG_Z;
+/// Where a ray (from a place along a direction) meets the face of a panel of that pose, width and height (m): in the panel's own axes.
+/// `None` beside the panel, from behind, and of what is no number.
+pub(crate) fn met(
+    (from, along): (Vec3, Vec3),
+    (pose, [width, height]): (Pose, [f32; 2]),
+) -> Option<Vec3> {
+    let panel_from_stage = pose.inverse();
+    let from = panel_from_stage.transform_point(from);
+    let along = panel_from_stage.orientation * along;
     if from.z <= 0.0 || along.z >= -1e-3 {
         return None;
     }
     let at = from + along * (-from.z / along.z);
+    (at.x.abs() < 0.5 * width && at.y.abs() < 0.5 * height).then_some(at)
+}
+
+/// The pixel that a ray along −Z meets, if it meets the panel's face, and where in the scene's stage that is.
+fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<(Pos2, Vec3)> {
     let pixels = width as f32 / WIDTH;
+    let panel = (scene_from_panel(), [WIDTH, height as f32 / pixels]);
+    let along = scene_from_aim.orientation * Vec3::NEG_Z;
+    let at = met((scene_from_aim.position, along), panel)?;
     let (x, y) = (
         0.5 * width as f32 + pixels * at.x,
         0.5 * height as f32 - pixels * at.y,
     );
-    let inside = (0.0..width as f32).contains(&x) && (0.0..height as f32).contains(&y);
-    inside.then(|| (Pos2::new(x, y), scene_from_panel().transform_point(at)))
+    Some((Pos2::new(x, y), scene_from_panel().transform_point(at)))
 }
 
 #[cfg(test)]
@@ -295,5 +306,9 @@ mod tests {
         let back = Quat::from_rotation_y(std::f32::consts::PI);
         assert_eq!(aim(Vec3::new(0.0, 1.16, 0.0), back), None);
         assert_eq!(aim(Vec3::new(0.0, 1.16, -1.5), back), None);
+        // What is no number.
+        assert_eq!(aim(Vec3::splat(f32::NAN), Quat::IDENTITY), None);
+        let nowhere = Pose::new(Vec3::splat(f32::NAN), Quat::IDENTITY);
+        assert_eq!(met((Vec3::ZERO, Vec3::NEG_Z), (nowhere, SIZE)), None);
     }
 }

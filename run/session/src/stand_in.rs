@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use super::frame_clock::FrameClock;
 use super::panel::PANEL;
 use super::reopening::Reopening;
 use glam::{Quat, Vec3};
@@ -74,9 +75,7 @@ pub struct StandIn {
     wearer: TrackSource,
     playing: TrackSource,
     rounds: u64,
-    started: Option<Instant>,
-    /// Number of the period in which the last frame is shown.
-    period: u64,
+    clock: FrameClock,
     index: u64,
     view: Pose,
     leaving: bool,
@@ -111,8 +110,7 @@ impl StandIn {
             playing: wearer.clone(),
             wearer,
             rounds: 0,
-            started: None,
-            period: 0,
+            clock: FrameClock::new(spec.rate_hz),
             index: 0,
             view: Pose::IDENTITY,
             leaving: false,
@@ -156,28 +154,10 @@ impl StandIn {
         })
     }
 
-    /// Length of a period, s.
-    fn seconds(&self) -> f64 {
-        self.spec.rate_hz.recip()
-    }
-
-    /// Waits until the next frame is to begin.
-    fn pace(&mut self) {
-        let start = *self.started.get_or_insert_with(Instant::now);
-        let mut period = self.period + 1;
-        if self.spec.timing == Timing::Real {
-            let now = start.elapsed().as_secs_f64() / self.seconds();
-            period = period.max(now.floor() as u64 + 1);
-            let begin = start + Duration::from_secs_f64((period - 1) as f64 * self.seconds());
-            std::thread::sleep(begin.saturating_duration_since(Instant::now()));
-        }
-        self.period = period;
-    }
-
     /// The wearer when the frame's picture is shown.
     fn poses(&mut self) -> Result<PoseFrame, HeadsetError> {
-        let length = self.wearer.track().duration().max(self.seconds());
-        let time = (self.period - 1) as f64 * self.seconds();
+        let length = self.wearer.track().duration().max(self.clock.seconds());
+        let time = self.clock.time();
         let rounds = (time / length) as u64;
         if rounds > self.rounds {
             (self.rounds, self.playing) = (rounds, self.wearer.clone());
@@ -193,7 +173,7 @@ impl StandIn {
         (frame.step, frame.time_ns) = (0, 0);
         frame.scenario.clear();
         frame.info.xr_time = EPOCH + (1e9 * time).round() as i64;
-        frame.info.period_ns = (1e9 * self.seconds()).round() as i64;
+        frame.info.period_ns = self.clock.period_ns();
         frame.info.fov = [LEFT_EYE, mirrored(LEFT_EYE)];
         frame.info.session_state = SessionState::Focused;
         self.view = frame.stage_from_view;
@@ -255,7 +235,12 @@ impl Headset for StandIn {
             self.move_to(&gpu)?;
             return Ok(Turn::Renewed);
         }
-        self.pace();
+        match self.spec.timing {
+            Timing::Real => {
+                self.clock.wait();
+            }
+            Timing::Free => self.clock.step(),
+        }
         let frame = HeadsetFrame {
             index: self.index,
             poses: self.poses()?,
@@ -290,12 +275,11 @@ impl Headset for StandIn {
     }
 
     fn end(&mut self, _shown: Option<&Shown>) -> Result<(), HeadsetError> {
-        let (Some(compositor), Some(start)) = (&self.compositor, self.started) else {
+        let (Some(compositor), Some(begin)) = (&self.compositor, self.clock.began()) else {
             return Ok(());
         };
         // An empty submission behind the pictures on their queue is done when they are.
         let fence = self.gpu.submit(self.gpu.recorder(QueueKind::Main)?)?;
-        let begin = start + Duration::from_secs_f64((self.period - 1) as f64 * self.seconds());
         if let Some(frames) = &compositor.frames {
             // It listens until it is dropped.
             let _ = frames.send((self.index - 1, begin, fence));
@@ -317,7 +301,7 @@ impl Headset for StandIn {
     }
 
     fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
-        self.spec.rate_hz = rate.into();
+        self.clock.rate_hz = rate.into();
         Ok(())
     }
 

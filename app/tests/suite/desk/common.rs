@@ -10,7 +10,7 @@ use crate::vr::common::{hearing, options, recording};
 use glam::Vec3;
 use vitriol_gpu::Gpu;
 use vitriol_session::clock::MOST_STEPS;
-use vitriol_session::desk::{self, Desk, DeskSpec};
+use vitriol_session::desk::{self, Desk, DeskSpec, FOV};
 use vitriol_session::session::{Options, Session, SessionOutcome};
 use vitriol_tests::screen::{Button, Screen, Window, key};
 use vitriol_xr::track::Track;
@@ -129,12 +129,12 @@ impl User {
         self.point(at);
     }
 
-    /// Tilts what is held by dragging the pointer down by so many pixels with the secondary button, or up where they are negative. The
-    /// pointer is then where it was, and so is the hand.
+    /// Tilts what is held by dragging the pointer to the right by so many pixels with the secondary button, or to the left where they are
+    /// negative. The pointer is then where it was, and so is the hand.
     pub fn tilts(&mut self, pixels: i32) {
         let [x, y] = self.pointer;
         self.button(Button::Secondary, true);
-        self.point([x, y + pixels]);
+        self.point([x + pixels, y]);
         self.button(Button::Secondary, false);
         self.point([x, y]);
     }
@@ -383,24 +383,29 @@ pub fn at_screen(folder: &Path) -> Options {
 
 /// A session in a window, to the end of what its user does.
 pub fn session(gpu: &Gpu, seat: (Screen, By), options: Options, script: Script) -> Sat {
-    session_at(gpu, seat, options, script, (false, |desk| desk))
+    session_at(gpu, seat, options, script, (spec(), |desk| desk))
 }
 
-/// The same where a click takes and another one puts down, if it `toggles`, at a desk with a change.
+/// A small window in which a hand holds as long as the button.
+pub fn spec() -> DeskSpec {
+    DeskSpec {
+        size: SIZE,
+        full_screen: false,
+        fov: FOV,
+        toggles: false,
+    }
+}
+
+/// The same in that window, at a desk with a change.
 pub fn session_at(
     gpu: &Gpu,
     (screen, by): (Screen, By),
     options: Options,
     script: Script,
-    (toggles, change): (bool, impl FnOnce(Desk) -> Desk),
+    (spec, change): (DeskSpec, impl FnOnce(Desk) -> Desk),
 ) -> Sat {
     let file = options.record.clone().unwrap();
     let (decisions, taken) = channel();
-    let spec = DeskSpec {
-        size: SIZE,
-        full_screen: false,
-        toggles,
-    };
     let (desk, window) = desk::open(gpu, spec, decisions).unwrap();
     let mut used = Used {
         desk: change(desk),

@@ -24,7 +24,8 @@ const WANTED: f64 = 20.0;
 const BY: f64 = 5.0;
 /// What is on its way, and what wets the rim, mL: by so much may what arrived differ from what was poured.
 const ON_ITS_WAY: f64 = 3.0;
-/// Drags, pixels of a window with 240 rows, which are half a turn: 6° while nothing flows, 1.5° up to the first drops, then 0.75°.
+/// Drags, pixels of a window with 320 columns, which are two thirds of a turn: 6° while nothing flows, 1.5° up to the first drops, then
+/// 0.75°.
 const COARSE: i32 = 8;
 const FINE: i32 = 2;
 const FINEST: i32 = 1;

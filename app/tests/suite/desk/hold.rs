@@ -1,4 +1,4 @@
-//! What wheel and secondary button do to a flask that the main button holds, and that it stands again once that is released.
+//! What wheel, secondary button and keys do to a flask that the main button holds, and that it stands again once that is released.
 
 use crate::desk::common::{By, Script, User, at_screen, points, puts_down, session, takes};
 use crate::desk::seen::{SOURCE, Seen, level};
@@ -6,18 +6,22 @@ use crate::vr::common::hash;
 use crate::vr::loss::replayed;
 use glam::Vec3;
 use vitriol_tests::gpu;
-use vitriol_tests::screen::{self, Button};
+use vitriol_tests::screen::{self, Button, key};
 
 /// Notches of the wheel, and by how much each raises the flask, m (`NOTCH` of the desk's hands).
 const NOTCHES: i32 = 3;
 const NOTCH: f32 = 0.02;
 /// Events of a notch: winit 0.30.13 sends one as a wheel without a scroll axis, as this screen's, is pressed, and one as it is released.
 const EVENTS: f32 = 2.0;
-/// How far the pointer is dragged with the secondary button, pixels: an eighth of the window's height.
+/// How far the pointer is dragged to the right with the secondary button, pixels of 320, which are two thirds of a turn: 22.5°.
 const DRAG: i32 = 30;
 /// A tilt that is none, and one that is seen, degrees.
 const UPRIGHT: f32 = 2.0;
 const TILTED: f32 = 5.0;
+
+/// How far keys raise the flask, and lower it then, m.
+const RISES: f32 = 0.06;
+const SINKS: f32 = 0.03;
 
 /// Whether the flask has stood still for some frames.
 fn rests(user: &mut User, seen: &Seen<'_>) -> bool {
@@ -25,10 +29,10 @@ fn rests(user: &mut User, seen: &Seen<'_>) -> bool {
     user.brings(seen, (at, at), 1.0, false)
 }
 
-/// Drags the pointer up, or down, by [`DRAG`].
-fn drags(user: &mut User, up: bool) {
+/// Drags the pointer to the right by so many pixels, or to the left where they are negative.
+fn drags(user: &mut User, pixels: i32) {
     let [x, y] = user.pointer;
-    user.point([x, if up { y - DRAG } else { y + DRAG }]);
+    user.point([x + pixels, y]);
 }
 
 fn raises_and_tilts(script: Script) -> Script {
@@ -56,23 +60,23 @@ fn raises_and_tilts(script: Script) -> Script {
                 let side = seen.holder(SOURCE).unwrap();
                 user.noted[1] = seen.palm(side);
                 user.button(Button::Secondary, true);
-                drags(user, true);
+                drags(user, DRAG);
             }
             seen.tilt(SOURCE) > TILTED && rests(user, seen)
         })
         .then("looks that it only tilts", |user, seen, _| {
             let side = seen.holder(SOURCE).unwrap();
-            // Dragged along, the hand would have gone with the pointer: by some 7 cm.
+            // Dragged along, the hand would have gone with the pointer: by some 10 cm.
             let moved = level(seen.palm(side) - user.noted[1]);
             assert!(moved.length() < 0.03, "{moved}");
-            // To the left or to the right, not towards the user.
+            // To the right, where the pointer went, and not towards the user.
             let axis = seen.axis(SOURCE);
-            assert!(axis.z.abs() < 0.5 * axis.x.abs(), "{axis}");
+            assert!(axis.x > 0.0 && axis.z.abs() < 0.5 * axis.x, "{axis}");
             true
         })
         .then("drags back", |user, seen, frame| {
             if frame == 0 {
-                drags(user, false);
+                drags(user, -DRAG);
             }
             seen.tilt(SOURCE) < UPRIGHT && rests(user, seen)
         })
@@ -101,4 +105,54 @@ fn wheel_and_secondary_button_raise_and_tilt_what_is_held() {
     assert!((stands.orientation * Vec3::Y).y > 0.999, "{stands:?}");
     assert_eq!(sat.outcome.world.holder(SOURCE), None);
     assert_eq!(replayed(&gpu, sat.track), hash(&sat.outcome));
+}
+
+fn raises_and_lowers_by_keys(script: Script) -> Script {
+    script
+        .then("notes where it is", |user, seen, _| {
+            user.noted[0] = seen.foot(SOURCE);
+            rests(user, seen)
+        })
+        .then("holds Page Up", |user, seen, _| {
+            let risen = seen.foot(SOURCE).y - user.noted[0].y;
+            user.hold(key::PAGE_UP, risen < RISES);
+            risen >= RISES
+        })
+        .then("notes how high it is", |user, seen, _| {
+            user.noted[1] = seen.foot(SOURCE);
+            rests(user, seen)
+        })
+        .then("holds Page Down", |user, seen, _| {
+            let sunk = user.noted[1].y - seen.foot(SOURCE).y;
+            user.hold(key::PAGE_DOWN, sunk < SINKS);
+            sunk >= SINKS
+        })
+        .then("looks that it only rose and sank", |user, seen, _| {
+            let aside = level(seen.foot(SOURCE) - user.noted[0]);
+            assert!(aside.length() < 0.01, "{aside}");
+            assert!(seen.tilt(SOURCE) < UPRIGHT, "{}", seen.tilt(SOURCE));
+            rests(user, seen)
+        })
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    fn page_keys_raise_and_lower_what_is_held() {
+        let name = "desk::hold::long::page_keys_raise_and_lower_what_is_held";
+        let Some(screen) = screen::enter(name) else {
+            return;
+        };
+        let gpu = gpu::device();
+        let folder = tempfile::tempdir().unwrap();
+        let script = raises_and_lowers_by_keys(takes(points(Script::default())));
+        let options = at_screen(folder.path());
+        let sat = session(&gpu, (screen, By::Mouse), options, puts_down(script));
+        assert_eq!(sat.ended_in, None);
+        let stands = sat.outcome.world.poses()[SOURCE];
+        assert!((stands.orientation * Vec3::Y).y > 0.999, "{stands:?}");
+        assert_eq!(sat.outcome.world.holder(SOURCE), None);
+        assert_eq!(replayed(&gpu, sat.track), hash(&sat.outcome));
+    }
 }

@@ -1,6 +1,6 @@
 //! A device that is lost while a flask is in the hand.
 
-use crate::desk::common::{By, Script, at_screen, points, puts_down, session_at, takes};
+use crate::desk::common::{By, Script, at_screen, points, puts_down, session_at, spec, takes};
 use crate::desk::seen::SOURCE;
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
@@ -36,7 +36,7 @@ mod long {
             (screen, By::Mouse),
             at_screen(folder.path()),
             puts_down(script),
-            (false, move |desk: Desk| {
+            (spec(), move |desk: Desk| {
                 desk.reopening(move || Ok(then.clone()))
             }),
         );

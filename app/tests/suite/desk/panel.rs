@@ -1,15 +1,16 @@
 //! The panel: it fills the picture at a key, and its buttons are pressed with the mouse.
 
 use crate::desk::common::{By, Script, User, at_screen, session};
-use crate::desk::seen::Seen;
+use crate::desk::seen::{SOURCE, Seen, TARGET};
 use crate::vr::panel::place_at_desk;
 use glam::Vec3;
 use vitriol_run::Action;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::panel::PANEL;
+use vitriol_sim::bodies::GRIP_REACH;
 use vitriol_tests::gpu;
-use vitriol_tests::screen::{self, Button};
+use vitriol_tests::screen::{self, Button, key as keys};
 use vitriol_xr::Side;
 
 /// R lets the panel fill the picture.
@@ -73,6 +74,38 @@ fn changed(was: &[[u8; 3]], is: &[[u8; 3]]) -> f32 {
     count as f32 / was.len().max(1) as f32
 }
 
+/// Lets the panel fill the picture.
+fn looks_at_it(script: Script) -> Script {
+    script.then("looks at the panel", |user, seen, frame| {
+        if frame == 0 {
+            user.tap(FILLS);
+        }
+        looks(user, seen)
+    })
+}
+
+/// Clicks the button of what happened, which is there: the list of scenes gives way to the summary.
+fn asks_what_happened(script: Script, summary: [f32; 2]) -> Script {
+    let mut before = Vec::new();
+    script
+        .then("points at what happened", move |user, seen, frame| {
+            if frame == 0 {
+                user.point_at(seen, button(seen, summary));
+            }
+            is_aimed_at(seen, button(seen, summary)) && !pulls(seen) && frame >= 5
+        })
+        .then("clicks", move |user, seen, frame| {
+            let now = buttons(user, seen);
+            if frame == 0 {
+                before = now;
+                user.click();
+                return false;
+            }
+            // A button that lights up under the pointer is some 5 % of that.
+            changed(&before, &now) > 0.15
+        })
+}
+
 #[test]
 fn buttons_of_the_panel_are_pressed_with_the_mouse() {
     let name = "desk::panel::buttons_of_the_panel_are_pressed_with_the_mouse";
@@ -83,14 +116,7 @@ fn buttons_of_the_panel_are_pressed_with_the_mouse() {
     let folder = tempfile::tempdir().unwrap();
     let start = place_at_desk(&gpu, &Decision::Act(Action::Start(None)));
     let summary = place_at_desk(&gpu, &Decision::Summary);
-    let mut before = Vec::new();
-    let script = Script::default()
-        .then("looks at the panel", |user, seen, frame| {
-            if frame == 0 {
-                user.tap(FILLS);
-            }
-            looks(user, seen)
-        })
+    let script = looks_at_it(Script::default())
         .then(
             "points at the button of a new start",
             move |user, seen, frame| {
@@ -120,25 +146,8 @@ fn buttons_of_the_panel_are_pressed_with_the_mouse() {
         // What fades in is dark at first.
         .then("waits for its light", |_, seen, frame| {
             frame >= 20 && seen.lasts > 0.5
-        })
-        .then("points at what happened", move |user, seen, frame| {
-            if frame == 0 {
-                user.point_at(seen, button(seen, summary));
-            }
-            is_aimed_at(seen, button(seen, summary)) && !pulls(seen) && frame >= 5
-        })
-        // The list of scenes gives way to the summary.
-        .then("clicks", move |user, seen, frame| {
-            let now = buttons(user, seen);
-            if frame == 0 {
-                before = now;
-                user.button(Button::Main, true);
-                user.button(Button::Main, false);
-                return false;
-            }
-            // A button that lights up under the pointer is some 5 % of that.
-            changed(&before, &now) > 0.15
         });
+    let script = asks_what_happened(script, summary);
     let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
     assert_eq!(sat.ended_in, None);
     let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
@@ -152,4 +161,56 @@ fn buttons_of_the_panel_are_pressed_with_the_mouse() {
             .iter()
             .all(|it| it.incidents.is_empty())
     );
+}
+
+/// Takes a flask by key with the active hand, which keeps it.
+fn keeps(script: Script, flask: usize) -> Script {
+    script
+        .then("points at a flask", move |user, seen, frame| {
+            if frame.is_multiple_of(10) {
+                user.point_at(seen, seen.middle(flask));
+            }
+            seen.is_ringed(flask) && seen.gap(flask) < GRIP_REACH
+        })
+        .then("takes it by key", move |user, seen, frame| {
+            if frame == 0 {
+                user.tap(keys::SPACE);
+            }
+            seen.holder(flask).is_some()
+        })
+}
+
+mod long {
+    use super::*;
+
+    /// Both hands keep what they hold, and where they hold it.
+    #[test]
+    fn a_button_is_pressed_with_both_hands_full() {
+        let name = "desk::panel::long::a_button_is_pressed_with_both_hands_full";
+        let Some(screen) = screen::enter(name) else {
+            return;
+        };
+        let gpu = gpu::device();
+        let folder = tempfile::tempdir().unwrap();
+        let summary = place_at_desk(&gpu, &Decision::Summary);
+        let script =
+            keeps(Script::default(), SOURCE).then("changes the hand", |user, seen, frame| {
+                if frame == 0 {
+                    user.tap(keys::TAB);
+                }
+                seen.lasts > 0.3
+            });
+        let script = asks_what_happened(looks_at_it(keeps(script, TARGET)), summary);
+        let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
+        assert_eq!(sat.ended_in, None);
+        let world = &sat.outcome.world;
+        let holders = [SOURCE, TARGET].map(|flask| world.holder(flask));
+        assert!(holders.iter().all(Option::is_some), "{holders:?}");
+        let stood = world.scene().flasks.iter().map(|it| it.stage_from_flask);
+        for (was, is) in stood.zip(world.poses()) {
+            let moved = was.position.distance(is.position);
+            // As far as a hand that closes stirs what it takes.
+            assert!(moved < 0.005, "{moved} m");
+        }
+    }
 }

@@ -2,13 +2,14 @@
 //! other hand is used.
 
 use crate::desk::common::{
-    By, Sat, Script, at_screen, points, puts_down, session, session_at, stands, takes,
+    By, Sat, Script, at_screen, points, puts_down, session, session_at, spec, stands, takes,
 };
 use crate::desk::seen::{SOURCE, Seen, TARGET, level};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
 use glam::Vec3;
 use vitriol_gpu::Gpu;
+use vitriol_session::desk::DeskSpec;
 use vitriol_sim::bodies::GRIP_REACH;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Button, key};
@@ -78,7 +79,11 @@ fn a_click_takes_and_a_click_puts_down() {
         stands(seen, SOURCE)
     });
     let (seat, options) = ((screen, By::Mouse), at_screen(folder.path()));
-    let sat = session_at(&gpu, seat, options, script, (true, |desk| desk));
+    let spec = DeskSpec {
+        toggles: true,
+        ..spec()
+    };
+    let sat = session_at(&gpu, seat, options, script, (spec, |desk| desk));
     let away = moved(&sat) + ASIDE * Vec3::X;
     // As near as it was carried, and 1 cm for how it is put down.
     assert!(level(away).length() < NEAR + 0.01, "{away}");

@@ -1,12 +1,14 @@
-//! The window: other sizes of it, and the key that ends the session.
+//! The window: other sizes of it, what its view shows, and the keys that turn the view, fill the screen and end the session.
 
-use crate::desk::common::{By, Script, at_screen, points, session};
+use crate::desk::common::{By, Script, at_screen, points, session, session_at, spec};
 use crate::desk::seen::{SOURCE, Seen};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
 use glam::Vec3;
+use vitriol_session::desk::DeskSpec;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, key};
+use vitriol_xr::Side;
 
 /// Sizes that the window is given, pixels: an old screen's, and one wider than any.
 const SIZES: [[u32; 2]; 2] = [[640, 480], [1000, 300]];
@@ -97,4 +99,127 @@ fn escape_ends_when_it_is_pressed_twice() {
     assert_eq!(sat.ended_in, Some("presses it twice"));
     assert!(sat.outcome.frames > GOES_ON, "{}", sat.outcome.frames);
     assert_eq!(sat.screen.find("Vitriol"), None);
+}
+
+/// A window manager fills the screen; the program asks it to, and to end that.
+#[test]
+fn f11_asks_for_the_whole_screen_and_back() {
+    let name = "desk::window::f11_asks_for_the_whole_screen_and_back";
+    let Some(screen) = screen::enter(name) else {
+        return;
+    };
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    screen.watch();
+    let presses = |script: Script, fills: bool| {
+        script.then("presses F11", move |user, _, frame| {
+            if frame == 0 {
+                user.tap(key::F11);
+            }
+            let asked = user.screen.asked_to_fill();
+            assert!(asked.iter().all(|it| *it == fills), "{asked:?}");
+            !asked.is_empty()
+        })
+    };
+    let script = [true, false].into_iter().fold(Script::default(), presses);
+    let sat = session(&gpu, (screen, By::Keys), at_screen(folder.path()), script);
+    assert_eq!(sat.ended_in, None);
+}
+
+/// How far the eye goes to the right, m: 9° about a bench that is 0.67 m away.
+const TURNS: f32 = 0.1;
+/// What a hand that rests moves at most, m.
+const RESTS: f32 = 0.01;
+
+/// Where the eye is, m.
+fn eye(seen: &Seen<'_>) -> Vec3 {
+    seen.frame.stage_from_view.position
+}
+
+#[test]
+fn arrows_turn_the_view_with_control_and_move_no_hand() {
+    let name = "desk::window::arrows_turn_the_view_with_control_and_move_no_hand";
+    let Some(screen) = screen::enter(name) else {
+        return;
+    };
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let script = Script::default()
+        .then("waits", |user, seen, frame| {
+            user.noted = Side::BOTH.map(|side| seen.palm(side));
+            frame >= 10
+        })
+        .then("holds Ctrl and an arrow", |user, seen, frame| {
+            let turned = eye(seen).x > TURNS;
+            if frame == 0 {
+                user.hold(key::CONTROL, true);
+                user.hold(key::RIGHT, true);
+            } else if turned {
+                // Without Ctrl the arrow would move the hand.
+                user.hold(key::RIGHT, false);
+                user.hold(key::CONTROL, false);
+            }
+            turned
+        })
+        .then("goes back", |user, seen, frame| {
+            if frame == 0 {
+                user.tap(key::HOME);
+            }
+            for side in Side::BOTH {
+                let moved = seen.palm(side).distance(user.noted[side as usize]);
+                assert!(moved < RESTS, "{side:?}: {moved} m");
+            }
+            eye(seen).x.abs() < 0.1 * TURNS
+        });
+    let sat = session(&gpu, (screen, By::Keys), at_screen(folder.path()), script);
+    assert_eq!(sat.ended_in, None);
+}
+
+/// Angle that a window is opened with, degrees; another one; and what is the same, since the view comes to rest ever more slowly.
+const NARROW: f32 = 40.0;
+const WIDER: f32 = 45.0;
+const SAME: f32 = 0.5;
+
+/// The angle between the picture's upper and lower side, degrees.
+fn angle(seen: &Seen<'_>) -> f32 {
+    let fov = &seen.frame.info.fov[0];
+    (fov.up - fov.down).to_degrees()
+}
+
+#[test]
+fn a_window_opens_with_its_field_of_view_and_the_wheel_changes_it() {
+    let name = "desk::window::a_window_opens_with_its_field_of_view_and_the_wheel_changes_it";
+    let Some(screen) = screen::enter(name) else {
+        return;
+    };
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let script = Script::default()
+        .then("looks", |_, seen, _| {
+            assert!((angle(seen) - NARROW).abs() < SAME, "{}", angle(seen));
+            true
+        })
+        .then("turns the wheel with Ctrl", |user, seen, frame| {
+            if frame == 0 {
+                // A wheel is the window's over which the pointer is.
+                user.point([160, 120]);
+                user.hold(key::CONTROL, true);
+                user.wheel(-2);
+                user.hold(key::CONTROL, false);
+            }
+            angle(seen) > WIDER
+        })
+        .then("goes home", |user, seen, frame| {
+            if frame == 0 {
+                user.tap(key::HOME);
+            }
+            (angle(seen) - NARROW).abs() < SAME
+        });
+    let spec = DeskSpec {
+        fov: NARROW,
+        ..spec()
+    };
+    let (seat, options) = ((screen, By::Mouse), at_screen(folder.path()));
+    let sat = session_at(&gpu, seat, options, script, (spec, |desk| desk));
+    assert_eq!(sat.ended_in, None);
 }

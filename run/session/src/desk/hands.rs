@@ -29,6 +29,8 @@ use obstacles::{hover, level};
 use pointing::{Ray, by_place, by_ray, grip_at, nearest, orientation, outwards, pours_clear};
 use press::Press;
 
+use crate::panel::met;
+
 /// Interaction profile of these hands in a recording. It is ours: OpenXR has none for a mouse.
 const PROFILE: &str = "/interaction_profiles/vitriol/mouse";
 /// Longest time that one frame moves a hand, s: where frames take longer, hands are slower and as steady.
@@ -210,11 +212,26 @@ impl Hands {
         rest.with_y(rest.y.max(over))
     }
 
-    /// The hand that can press something on the panel: one that holds nothing, the active one if it can be chosen.
+    /// The hand that can press something on the panel: one that holds nothing, else one that holds something, whose trigger closes it no
+    /// further; of two the active one.
     fn presser(&self) -> Option<Side> {
-        let other = self.movers.iter().map(|it| it.side);
-        let mut sides = [self.active].into_iter().chain(other);
-        sides.find(|&side| self.movers[side as usize].is_free())
+        let sides = [self.active, other(self.active)];
+        let first = |can: fn(&Mover) -> bool| {
+            let mut sides = sides.into_iter();
+            sides.find(|&side| can(&self.movers[side as usize]))
+        };
+        first(Mover::is_free).or_else(|| first(Mover::holds))
+    }
+
+    /// Whether the hand of that press is still as it was clicked with: one that took something meanwhile, or put it down, pulls no trigger,
+    /// since that would close it.
+    fn presses(&self, press: &Press) -> bool {
+        let mover = &self.movers[press.side as usize];
+        if press.holds {
+            mover.holds()
+        } else {
+            mover.is_free()
+        }
     }
 
     /// Where the pointer is: on the panel, at a thing, on the bench; and where a hand that holds nothing goes.
@@ -233,7 +250,9 @@ impl Hands {
             State::Free | State::Opening(_) | State::Pulling(_) => false,
         };
         // What is before the panel, and met by the ray, hides it.
-        let panel = pointing::panel(controls.ray, around).filter(|_| !drags);
+        let panel = met(controls.ray, around.panel)
+            .map(|at| around.panel.0.transform_point(at).distance(controls.ray.0))
+            .filter(|_| !drags);
         let hidden = |far: f32| by_ray.is_some_and(|it| it.beside == 0.0 && it.along < far);
         self.on_panel = self.points && panel.is_some_and(|far| !hidden(far));
         self.steer(controls);
@@ -322,18 +341,18 @@ impl Hands {
         })
     }
 
-    /// A click on the panel: the hand that presses goes out of the way of all glass first, since its trigger closes it.
+    /// A click on the panel: a free hand that presses goes out of the way of all glass first, since its trigger closes it.
     fn click(&mut self, controls: &Controls, around: &Around, dt: f32) {
-        let free = |hands: &Self, side: Side| hands.movers[side as usize].is_free();
-        if let Some(press) = self.press.take().filter(|it| free(self, it.side)) {
+        if let Some(press) = self.press.take().filter(|it| self.presses(it)) {
             let palm = self.movers[press.side as usize].pose().position;
-            let clear = nearest(around, palm, None) > press::CLEAR;
+            let clear = press.holds || nearest(around, palm, None) > press::CLEAR;
             self.press = press.after(clear, controls.presses(), dt);
         }
         let clicked = controls.press || controls.panel_press;
         let presser = self.presser();
         if let (true, true, None, Some(side)) = (self.on_panel, clicked, &self.press, presser) {
-            self.press = Some(Press::new(controls.ray, side));
+            let holds = self.movers[side as usize].holds();
+            self.press = Some(Press::new(controls.ray, side, holds));
         }
         let pressing = self.press.map(|it| it.side);
         if let Some(side) = pressing.or(presser.filter(|_| self.on_panel)) {
@@ -439,7 +458,8 @@ impl Hands {
     }
 
     fn frame(&self) -> [Hand; 2] {
-        let ray: Ray = self.press.map_or(self.controls.ray, |it| it.ray);
+        let press = self.press.filter(|it| self.presses(it));
+        let ray: Ray = press.map_or(self.controls.ray, |it| it.ray);
         let turned = Quat::from_rotation_arc(Vec3::NEG_Z, ray.1);
         self.movers.each_ref().map(|mover| Hand {
             active: true,
@@ -449,7 +469,7 @@ impl Hands {
             // Before the eye, so that the panel's ray does not begin in it.
             stage_from_aim: Pose::new(ray.0 + 0.25 * ray.1, turned),
             squeeze: f32::from(u8::from(mover.is_closed())),
-            trigger: self.press.map_or(0.0, |it| it.trigger(mover.side)),
+            trigger: press.map_or(0.0, |it| it.trigger(mover.side)),
             profile: Arc::clone(&self.profile),
             ..Hand::default()
         })

@@ -13,9 +13,13 @@ const MIDDLE: Vec3 = Vec3::new(0.0, SCENE_TABLE, -0.45);
 const ASIDE: f32 = 70.0 * DEGREE;
 /// Least and greatest height of the eye above the floor, m: of someone who bends down to the table's top, and of a tall person who stands.
 const HEIGHTS: [f32; 2] = [0.8, 1.65];
-/// Least and greatest angle between the picture's upper and lower side, rad: what a magnifying glass has, and what is not yet distorted
+/// Least and greatest angle between the picture's upper and lower side, degrees: what a magnifying glass has, and what is not yet distorted
 /// much at the sides.
-const ANGLES: [f32; 2] = [20.0 * DEGREE, 75.0 * DEGREE];
+pub const FOVS: [f32; 2] = [20.0, 75.0];
+/// The angle that the first view has where no other is asked for, degrees: hands, flasks and panel are in one picture.
+pub const FOV: f32 = 56.0;
+/// [`FOVS`], rad.
+const ANGLES: [f32; 2] = [FOVS[0] * DEGREE, FOVS[1] * DEGREE];
 /// Share of the picture's height or width that the panel fills in its view.
 const FILLS: f32 = 0.9;
 /// Time in which two thirds of a way to another view are gone, s. Our choice: it is followed by the eye, and is waited for by nobody.
@@ -45,7 +49,7 @@ const FIRST: Stand = Stand {
     yaw: 0.0,
     height: 1.25,
     distance: 0.67,
-    angle: 56.0 * DEGREE,
+    angle: FOV * DEGREE,
 };
 
 /// From the side and from low: levels and streams are seen.
@@ -76,6 +80,7 @@ pub struct Turns {
 /// From where the bench is seen, and on its way to where.
 #[derive(Clone, Debug)]
 pub struct Viewpoint {
+    first: Stand,
     wanted: Stand,
     /// Whether the panel is to fill the picture.
     panel: bool,
@@ -88,16 +93,10 @@ pub struct Viewpoint {
     aspect: f32,
 }
 
+#[cfg(test)]
 impl Default for Viewpoint {
     fn default() -> Self {
-        Self {
-            wanted: FIRST,
-            panel: false,
-            before: None,
-            shown: FIRST,
-            at: FIRST.looks_at(),
-            aspect: 1.0,
-        }
+        Self::new(FOV)
     }
 }
 
@@ -133,6 +132,21 @@ impl Stand {
 }
 
 impl Viewpoint {
+    /// The first view, with that angle between the picture's upper and lower side: degrees, as [`FOVS`] allow.
+    pub fn new(fov: f32) -> Self {
+        let angle = (fov * DEGREE).clamp(ANGLES[0], ANGLES[1]);
+        let first = Stand { angle, ..FIRST };
+        Self {
+            first,
+            wanted: first,
+            panel: false,
+            before: None,
+            shown: first,
+            at: first.looks_at(),
+            aspect: 1.0,
+        }
+    }
+
     /// Goes on by `passed` seconds, in a picture of that aspect (width over height), to what `turns` ask for. The panel has that pose and
     /// size (m).
     pub fn advance(&mut self, turns: &Turns, panel: (Pose, [f32; 2]), aspect: f32, passed: f32) {
@@ -151,7 +165,7 @@ impl Viewpoint {
             };
         }
         if turns.home {
-            (self.panel, self.before, self.wanted) = (false, None, FIRST);
+            (self.panel, self.before, self.wanted) = (false, None, self.first);
         }
         if turns.yaw != 0.0 || turns.rise != 0.0 || turns.zoom != 0.0 {
             self.panel = false;
@@ -221,21 +235,9 @@ impl Viewpoint {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::panel::{SIZE, scene_from_panel};
+    use crate::panel::{SIZE, met, scene_from_panel};
 
     const WIDE: f32 = 16.0 / 9.0;
-
-    /// Whether a ray from a place along a direction meets the face of a panel of that pose and size (m).
-    fn meets((from, along): (Vec3, Vec3), (pose, [width, height]): (Pose, [f32; 2])) -> bool {
-        let panel_from_stage = pose.inverse();
-        let from = panel_from_stage.transform_point(from);
-        let along = panel_from_stage.orientation * along;
-        if from.z <= 0.0 || along.z >= -1e-3 {
-            return false;
-        }
-        let at = from + along * (-from.z / along.z);
-        at.x.abs() < 0.5 * width && at.y.abs() < 0.5 * height
-    }
 
     fn panel() -> (Pose, [f32; 2]) {
         (scene_from_panel(), SIZE)
@@ -358,6 +360,32 @@ mod tests {
         assert!((view.pose().position - first).length() < 1e-4);
     }
 
+    /// The picture has the angle that is asked for from its first frame on, and again with `Home` after another one.
+    #[test]
+    fn the_first_view_has_the_angle_that_is_asked_for() {
+        for wanted in [20.0, 40.0, FOV, 75.0] {
+            let mut view = Viewpoint::new(wanted);
+            let angle = |view: &Viewpoint| (view.fov().up - view.fov().down).to_degrees();
+            assert!((angle(&view) - wanted).abs() < 1e-3, "{}", angle(&view));
+            let other = if wanted > 50.0 { 0.5 } else { -0.5 };
+            gone(
+                &mut view,
+                Turns {
+                    zoom: other,
+                    ..Turns::default()
+                },
+                WIDE,
+            );
+            assert!((angle(&view) - wanted).abs() > 5.0, "{}", angle(&view));
+            let home = Turns {
+                home: true,
+                ..Turns::default()
+            };
+            gone(&mut view, home, WIDE);
+            assert!((angle(&view) - wanted).abs() < 1e-3, "{}", angle(&view));
+        }
+    }
+
     /// In its view the panel fills nine tenths of the height, or of the width of a picture that is narrower than it.
     #[test]
     fn the_panel_fills_its_view() {
@@ -377,8 +405,8 @@ mod tests {
             let largest = (right - left).max(lower - upper);
             // It leans back, so that its two halves are not equally far.
             assert!((largest - FILLS).abs() < 0.03, "{largest}");
-            assert!(meets(view.ray([0.5, 0.5]), panel()));
-            assert!(!meets(view.ray([0.01, 0.01]), panel()));
+            assert!(met(view.ray([0.5, 0.5]), panel()).is_some());
+            assert_eq!(met(view.ray([0.01, 0.01]), panel()), None);
         }
     }
 }

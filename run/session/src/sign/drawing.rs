@@ -96,15 +96,13 @@ impl Pictogram {
         }
     }
 
-    /// The beaker turns over the other one: by a mouse's right button, which is held while the mouse goes up or down.
+    /// The beaker turns over the other one: by a mouse's right button, which is held while the mouse goes to the side to
+    /// which it is poured.
     fn pour(&self, canvas: &mut Canvas, progress: f32) {
         pour(canvas, progress);
         if self.by == MovedBy::Mouse {
-            canvas.mouse(vec2(0.25, -0.42), 0.75, Part::Right, true);
-            let middle = vec2(0.56, -0.42);
-            for up in [-1.0_f32, 1.0] {
-                canvas.arrow(middle, middle + up * 0.24 * Vec2::Y);
-            }
+            canvas.mouse(vec2(0.48, -0.36), 0.75, Part::Right, true);
+            canvas.arrow(vec2(0.25, -0.46), vec2(0.0, -0.46));
         }
     }
 
@@ -182,4 +180,35 @@ fn pour(canvas: &mut Canvas, progress: f32) {
     canvas.thumb(&source, 1.0);
     canvas.beaker(&source, 0.55 - poured);
     canvas.hand(&source, 1.0, vec2(0.98, 0.24));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sign::strokes::AMBER;
+
+    /// A right hand holds the beaker from the right and pours to the left, and the mouse goes there too.
+    #[test]
+    fn the_mouse_goes_to_the_side_to_which_it_is_poured() {
+        for (side, way) in [(Side::Right, -1.0), (Side::Left, 1.0)] {
+            let picture = Pictogram {
+                lesson: Lesson::Pour,
+                side,
+                by: MovedBy::Mouse,
+                toggles: false,
+                step: 0,
+            };
+            let shapes = picture.shapes(100.0).into_iter();
+            // An arrow's head: its tip is the first corner.
+            let heads: Vec<f32> = shapes
+                .filter_map(|shape| match shape {
+                    Shape::Path(path) if path.fill == AMBER => {
+                        Some(path.points[0].x - path.points[1].x)
+                    }
+                    _ => None,
+                })
+                .collect();
+            assert!(heads.len() == 1 && heads[0] * way > 0.0, "{heads:?}");
+        }
+    }
 }

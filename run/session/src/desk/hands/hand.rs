@@ -97,6 +97,11 @@ impl Mover {
         matches!(self.state, State::Free | State::Opening(_))
     }
 
+    /// Whether it holds something.
+    pub fn holds(&self) -> bool {
+        matches!(self.state, State::Holding(_))
+    }
+
     /// Takes in what it holds; the user's eyes are at `eyes`, and `away` leads away from the viewer.
     pub fn take_in(&mut self, around: &Around, eyes: Vec3, away: Vec3) {
         let holds = around.holds[self.side as usize];

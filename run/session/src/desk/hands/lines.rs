@@ -87,7 +87,7 @@ pub(super) fn held(
 }
 
 /// The lowest point of a tilted flask's rim; `None` where it is upright.
-pub(super) fn lip(thing: &Thing, pose: &Pose) -> Option<Vec3> {
+fn lip(thing: &Thing, pose: &Pose) -> Option<Vec3> {
     let axis = pose.orientation * Vec3::Y;
     let down = axis.y * axis - Vec3::Y;
     let steep = down.length();

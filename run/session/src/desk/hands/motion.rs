@@ -10,7 +10,7 @@ pub(super) const ACCELERATION: f32 = 2.0;
 /// Speed for each metre to the target, 1/s: `GAIN` × `SPEED` is below `ACCELERATION`, so that the motion ends without overshoot.
 pub(super) const GAIN: f32 = 4.4;
 /// Highest turning speed, rad/s (75° a second), and its change, rad/s².
-pub(super) const SPIN: f32 = 1.3;
+const SPIN: f32 = 1.3;
 pub(super) const SPIN_CHANGE: f32 = 8.0;
 /// Turning speed for each radian to the target, 1/s; `SPIN_GAIN` × `SPIN` is below `SPIN_CHANGE`, as for `GAIN`.
 pub(super) const SPIN_GAIN: f32 = 6.0;

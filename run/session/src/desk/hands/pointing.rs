@@ -37,18 +37,6 @@ pub(super) fn at_height(ray: Ray, height: f32) -> Option<Vec2> {
     plane(ray, height * Vec3::Y, Vec3::Y).map(level)
 }
 
-/// How far along the ray the panel is, m.
-pub(super) fn panel(ray: Ray, around: &Around) -> Option<f32> {
-    let (pose, size) = around.panel;
-    if !pose.is_valid() {
-        return None;
-    }
-    let hit = plane(ray, pose.position, pose.orientation * Vec3::Z)?;
-    let at = pose.inverse().transform_point(hit);
-    let within = at.x.abs() <= 0.5 * size[0] && at.y.abs() <= 0.5 * size[1];
-    within.then(|| hit.distance(ray.0))
-}
-
 /// How far a ray passes beside a point before it, m.
 pub(super) fn beside((from, along): Ray, point: Vec3) -> f32 {
     let away = point - from;
@@ -56,7 +44,7 @@ pub(super) fn beside((from, along): Ray, point: Vec3) -> f32 {
 }
 
 /// Whether a hand can close on a thing.
-pub(super) fn is_of_use(thing: &Thing, table: f32) -> bool {
+fn is_of_use(thing: &Thing, table: f32) -> bool {
     counts(thing, table) && thing.grips
 }
 
@@ -109,7 +97,7 @@ fn free_things(around: &Around) -> impl Iterator<Item = (usize, &Thing)> {
 }
 
 /// Least distance of a point from a thing's surface, m; negative within.
-pub(super) fn distance(thing: &Thing, point: Vec3) -> f32 {
+fn distance(thing: &Thing, point: Vec3) -> f32 {
     let at = thing.pose.inverse().transform_point(point);
     let out = Vec2::new(
         at.x.hypot(at.z) - thing.radius,

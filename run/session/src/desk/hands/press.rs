@@ -1,8 +1,8 @@
 //! A click on the panel: a pull of a hand's trigger that the panel takes for one.
 //!
 //! The panel presses nothing for a hand that begins to point with its trigger pulled, so the hand points for some frames before it
-//! pulls. A trigger closes the hand, too: it is pulled where the hand can take nothing. Until it is over, the hand points at where it
-//! was clicked, wherever the pointer goes.
+//! pulls. A trigger closes the hand, too: it is pulled where the hand can take nothing, or by a hand that holds something already. Until it
+//! is over, the hand points at where it was clicked, wherever the pointer goes.
 
 use vitriol_xr::Side;
 
@@ -29,19 +29,21 @@ enum Stage {
 pub(super) struct Press {
     /// The pointer's ray as it was clicked.
     pub ray: Ray,
-    /// The hand that pulls.
+    /// The hand that pulls, and whether it holds something.
     pub side: Side,
+    pub holds: bool,
     stage: Stage,
     frames: u32,
     waited: f32,
 }
 
 impl Press {
-    /// A click by that hand.
-    pub fn new(ray: Ray, side: Side) -> Self {
+    /// A click by that hand, which holds something or nothing.
+    pub fn new(ray: Ray, side: Side, holds: bool) -> Self {
         Self {
             ray,
             side,
+            holds,
             stage: Stage::Points,
             frames: 0,
             waited: 0.0,

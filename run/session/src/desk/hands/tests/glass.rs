@@ -111,6 +111,49 @@ fn a_click_on_the_panel_pulls_a_trigger_and_grips_nothing() {
     }
 }
 
+/// A hand that holds something presses, and keeps what it holds; put down while the button is pressed, that is let go.
+#[test]
+fn a_click_on_the_panel_counts_with_both_hands_full() {
+    for dt in RATES {
+        let mut bench = Bench::new(two_flasks(), dt);
+        for at in [at_source(), at_target()] {
+            bench.point(at);
+            bench.wait(3.0);
+            bench.controls.grip = true;
+            bench.frame();
+            bench.wait(1.0);
+            bench.controls.other = at == at_source();
+            bench.frame();
+        }
+        let full = [Some(TARGET), Some(SOURCE)];
+        assert_eq!(bench.around.holds, full);
+        bench.point(Vec3::new(0.1, 1.2, -0.80));
+        bench.press();
+        bench.release();
+        let mut pulled = Vec::new();
+        for _ in 0..(2.0 / bench.counts) as usize {
+            bench.frame();
+            pulled.push(bench.now[0].trigger);
+            assert_eq!(bench.now[1].trigger, 0.0);
+            assert_eq!(bench.around.holds, full);
+        }
+        let pulls = pulled.iter().filter(|it| **it == 1.0).count();
+        assert!(pulls >= 3, "{pulls} frames");
+        assert_eq!(*pulled.last().unwrap(), 0.0);
+        for (was, is) in two_flasks().things.iter().zip(&bench.around.things) {
+            let moved = was.pose.position.distance(is.pose.position);
+            assert!(moved < 1e-3, "{moved}");
+        }
+        (bench.controls.panel_press, bench.controls.panel_down) = (true, true);
+        bench.wait(1.0);
+        assert_eq!(bench.now[0].trigger, 1.0);
+        bench.controls.grip = true;
+        bench.wait(2.0);
+        assert_eq!(bench.around.holds, [None, Some(SOURCE)]);
+        bench.stands(TARGET);
+    }
+}
+
 #[test]
 fn keys_alone_pour() {
     for dt in RATES {
