@@ -21,7 +21,7 @@ impl Report {
             section.happened.beside[film] {
                 @if film { div.films { (self.films(texts)) } }
                 div {
-                    (words(&attempts, texts, film))
+                    (words(&attempts, &self.lesson, texts, film))
                     (self.instructed(texts, film))
                 }
             }
@@ -44,30 +44,46 @@ pub fn told_page(
                 p.kicker { (texts.report.kicker_told) }
                 h1 { (title) }
             }
-            section.happened { (words(attempts, texts, false)) }
+            section.happened { (words(attempts, lesson, texts, false)) }
             (results(attempts, lesson, texts, false))
         }
     };
     page_in(texts.language().code(), title, STYLE, &body)
 }
 
-/// What was done in each attempt.
-fn words(attempts: &[(&Attempt, &Score)], texts: &Texts, film: bool) -> Markup {
-    let several = attempts.len() > 1;
+/// What was done in each attempt. The points of the lesson, which are its mark, come before the program's own.
+fn words(attempts: &[(&Attempt, &Score)], lesson: &[Verdict], texts: &Texts, film: bool) -> Markup {
+    let (several, taught) = (attempts.len() > 1, !lesson.is_empty());
     html! {
         h2 { (texts.report.happened) }
         @for (number, (attempt, score)) in (1..).zip(attempts) {
             @let (contact, said) = contact(attempt, sentences(attempt, score, texts), texts, film);
             article.attempt {
                 (contact)
-                (heading((number, several), attempt, score, texts))
+                @if number == 1 { (marks(lesson, texts)) }
+                (heading((number, several), taught, attempt, score, texts))
                 (told(&said, texts, film))
             }
         }
     }
 }
 
-/// Points of each attempt, and results of the lesson.
+/// Points of the lesson each time that it was begun.
+fn marks(lesson: &[Verdict], texts: &Texts) -> Markup {
+    html! {
+        @for (number, verdict) in (1_usize..).zip(lesson) {
+            header {
+                h3 { (begun(verdict, (lesson.len() > 1).then_some(number), texts)) }
+                p.total {
+                    a href=(format!("#lesson-{number}")) { (total(verdict.points, verdict.of, texts)) }
+                    (bar(verdict.points, verdict.of))
+                }
+            }
+        }
+    }
+}
+
+/// Results of the lesson, and points of each attempt.
 fn results(
     attempts: &[(&Attempt, &Score)],
     lesson: &[Verdict],
@@ -80,6 +96,12 @@ fn results(
         .zip(attempts)
         .filter(|(_, (_, score))| score.of > 0);
     html! {
+        @for (number, verdict) in (1_usize..).zip(lesson) {
+            section id=(format!("lesson-{number}")) {
+                h2 { (begun(verdict, (lesson.len() > 1).then_some(number), texts)) }
+                (judged(verdict, texts, film))
+            }
+        }
         @for (number, (attempt, score)) in judged_of {
             section id=(format!("score-{number}")) {
                 h2 {
@@ -87,12 +109,6 @@ fn results(
                     @else { (texts.report.score) }
                 }
                 (points(score, texts, film))
-            }
-        }
-        @for (number, verdict) in (1_usize..).zip(lesson) {
-            section id=(format!("lesson-{number}")) {
-                h2 { (begun(verdict, (lesson.len() > 1).then_some(number), texts)) }
-                (judged(verdict, texts, film))
             }
         }
     }
@@ -227,9 +243,10 @@ fn contact(
     (markup, said)
 }
 
-/// An attempt's name and points.
+/// An attempt's name and points, which are told from the lesson's where it was `taught`.
 fn heading(
     (number, several): (usize, bool),
+    taught: bool,
     attempt: &Attempt,
     score: &Score,
     texts: &Texts,
@@ -238,10 +255,12 @@ fn heading(
         header {
             @if several {
                 h3 { (numbered(&texts.report.attempt, number, attempt, texts)) }
+            } @else if taught {
+                h3 { (texts.report.score) }
             }
             @if score.of > 0 {
                 p.total {
-                    a href=(format!("#score-{number}")) { (total(score, texts)) }
+                    a href=(format!("#score-{number}")) { (total(score.points, score.of, texts)) }
                     (bar(score.points, score.of))
                 }
             } @else {
@@ -251,11 +270,11 @@ fn heading(
     }
 }
 
-/// Points of an attempt, of how many; the first number is set off.
-fn total(score: &Score, texts: &Texts) -> Markup {
-    let points = format!("<strong>{}</strong>", score.points);
+/// Points, of how many; the first number is set off.
+fn total(points: u32, of: u32, texts: &Texts) -> Markup {
+    let points = format!("<strong>{points}</strong>");
     // The table is the program's own, and the holes have numbers.
-    PreEscaped(part(&texts.report.total, &points, score.of))
+    PreEscaped(part(&texts.report.total, &points, of))
 }
 
 /// The sentences by tone: what went wrong first, since that is what one learns from.

@@ -25,7 +25,7 @@ use crate::address::HubAddress;
 use crate::auth::Secret;
 use crate::bounded::Text;
 use crate::error::Error;
-use crate::picture::EncodedPicture;
+use crate::picture::{Codec, EncodedPicture};
 use crate::pictures::Pictures;
 use crate::port::{self, Full, Inbox, Port, Wanted};
 use crate::pump::{self, Sink};
@@ -91,6 +91,7 @@ pub struct Link {
 #[derive(Default)]
 struct Outgoing {
     state: Mutex<Option<State>>,
+    card: Mutex<Option<Bytes>>,
     pictures: Mutex<Pictures>,
     changed: Notify,
 }
@@ -109,7 +110,9 @@ impl Sink for Out {
 
     fn picture(&mut self, gap: bool, picture: Arc<EncodedPicture>) {
         let message = Bytes::from(picture.to_message());
-        if lock(&self.outgoing.pictures).push(gap, &picture, message) {
+        if picture.codec == Codec::Card {
+            *lock(&self.outgoing.card) = Some(message);
+        } else if lock(&self.outgoing.pictures).push(gap, &picture, message) {
             self.inbox.ask_key();
         }
         self.outgoing.changed.notify_one();
@@ -297,8 +300,9 @@ impl Dialler {
                 None => {
                     let state = lock(&self.outgoing.state).take().map(Box::new);
                     let state = state.and_then(|state| text(&FromStudent::State { state }).ok());
+                    let card = || lock(&self.outgoing.card).take().map(Message::Binary);
                     let picture = || lock(&self.outgoing.pictures).pop().map(Message::Binary);
-                    match state.or_else(picture) {
+                    match state.or_else(card).or_else(picture) {
                         Some(message) => message,
                         None => {
                             self.outgoing.changed.notified().await;
@@ -330,10 +334,18 @@ impl Dialler {
                         }
                     }
                 }
-                Some(ToStudent::Wanted { h264, jpeg, key }) => {
+                Some(ToStudent::Wanted {
+                    h264,
+                    jpeg,
+                    key,
+                    card,
+                }) => {
                     self.inbox.want(Wanted { h264, jpeg });
                     if key {
                         self.inbox.ask_key();
+                    }
+                    if card {
+                        self.inbox.ask_card();
                     }
                 }
                 None => return,

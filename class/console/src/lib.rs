@@ -38,8 +38,8 @@ pub use invitation::Invitation;
 pub use picture::{Codec, EncodedPicture, JpegError, MOST_PICTURE};
 pub use port::{LeftOut, ORDERS, PICTURES, Port, Wanted};
 pub use student::{
-    Choice, Coming, Controls, Flask, Frames, Incident, Kind, NAME, Range, Readings, SENTENCE, Said,
-    State, Step, Student,
+    Choice, Coming, Controls, Flask, Frames, Incident, Kind, NAME, Points, Range, Readings,
+    SENTENCE, Said, State, Step, Student,
 };
 pub use watcher::{Heard, NotServed, Watcher};
 

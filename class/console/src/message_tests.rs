@@ -60,6 +60,15 @@ fn full() -> State {
         hottest_c: Some(100.0),
     };
     State {
+        step: Some(Step {
+            number: u16::MAX,
+            of: u16::MAX,
+            title: long(),
+        }),
+        points: Some(Points {
+            earned: u32::MAX,
+            of: u32::MAX,
+        }),
         hints: List::clipped(vec![said; 99]),
         incidents: List::clipped(vec![incident; 99]),
         coming: Some(Coming {
@@ -224,6 +233,32 @@ fn the_longest_state_fits_and_a_longer_one_does_not() {
     let hints = value["hints"].as_array_mut().unwrap();
     hints.push(hints[0].clone());
     assert!(serde_json::from_value::<State>(value).is_err());
+}
+
+/// A state as programs of the version before send it has no points. What they are sent has nothing that they would refuse.
+#[test]
+fn messages_of_the_version_before_are_read() {
+    let mut value = serde_json::to_value(full()).unwrap();
+    value.as_object_mut().unwrap().remove("points").unwrap();
+    let text = format!(r#"{{"say":"state","state":{value}}}"#);
+    let Some(FromStudent::State { state }) = read(&text, MOST_STATE) else {
+        panic!("a state without points was refused");
+    };
+    assert_eq!(state.points, None);
+    assert_eq!(state.incidents.len(), 32);
+    let wanted = |card| ToStudent::Wanted {
+        h264: true,
+        jpeg: false,
+        key: false,
+        card,
+    };
+    let before = r#"{"say":"wanted","h264":true,"jpeg":false,"key":false}"#;
+    assert_eq!(serde_json::to_string(&wanted(false)).unwrap(), before);
+    assert_eq!(read::<ToStudent>(before, MOST_STATE), Some(wanted(false)));
+    let now = serde_json::to_string(&wanted(true)).unwrap();
+    assert_eq!(read::<ToStudent>(&now, MOST_STATE), Some(wanted(true)));
+    // A card is no live view that a page could ask for.
+    assert_eq!(page(r#"{"say":"pictures","codec":"card"}"#), None);
 }
 
 proptest! {

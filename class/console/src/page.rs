@@ -9,10 +9,11 @@ use ring::digest::{SHA256, digest};
 const HTML: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 /// The scripts, in this order, in one function.
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("page/base.js"),
     include_str!("page/class.js"),
     include_str!("page/view.js"),
+    include_str!("page/zoom.js"),
     include_str!("page/controls.js"),
     include_str!("page/plots.js"),
 ];

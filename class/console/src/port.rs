@@ -14,7 +14,7 @@ use tokio::sync::Notify;
 
 use crate::command::Order;
 use crate::lock;
-use crate::picture::{Codec, EncodedPicture, MOST_PICTURE};
+use crate::picture::{Codec, EncodedPicture};
 use crate::student::State;
 
 /// Most pictures that wait for the console. Our choice: a tenth of a second at 72 a second.
@@ -49,6 +49,7 @@ pub(crate) struct Inbox {
     orders: Mutex<VecDeque<Order>>,
     wanted: AtomicU8,
     key: AtomicBool,
+    card: AtomicBool,
     /// Notified when something has come, for a student that is reached by a socket.
     pub changed: Notify,
 }
@@ -90,6 +91,13 @@ impl Inbox {
         }
     }
 
+    /// Asks for one picture for a card of the class.
+    pub fn ask_card(&self) {
+        if !self.card.swap(true, Ordering::Relaxed) {
+            self.changed.notify_one();
+        }
+    }
+
     /// Which pictures are wanted.
     pub fn wanted(&self) -> Wanted {
         let bits = self.wanted.load(Ordering::Relaxed);
@@ -102,6 +110,11 @@ impl Inbox {
     /// Whether a key frame was asked for since the last call.
     pub fn take_key(&self) -> bool {
         self.key.swap(false, Ordering::Relaxed)
+    }
+
+    /// Whether a picture for a card was asked for since the last call.
+    pub fn take_card(&self) -> bool {
+        self.card.swap(false, Ordering::Relaxed)
     }
 }
 
@@ -162,10 +175,10 @@ impl Port {
     pub fn picture(&self, picture: Arc<EncodedPicture>) {
         let number = match picture.codec {
             Codec::H264 => self.shared.sequence.fetch_add(1, Ordering::Relaxed),
-            Codec::Jpeg => 0,
+            Codec::Jpeg | Codec::Card => 0,
         };
         let out = &self.shared.pictures_out;
-        if picture.bytes.len() > MOST_PICTURE {
+        if picture.bytes.len() > picture.codec.most() {
             out.fetch_add(1, Ordering::Relaxed);
             return;
         }
@@ -205,6 +218,16 @@ impl Port {
     /// each request. Does not wait.
     pub fn take_key_request(&self) -> bool {
         self.inbox.take_key()
+    }
+
+    /// Whether one picture for a card of the class is wanted. Does not wait.
+    pub fn wants_card(&self) -> bool {
+        self.inbox.card.load(Ordering::Relaxed)
+    }
+
+    /// As [`Self::wants_card`], once for each request: who calls it makes the picture. Does not wait.
+    pub fn take_card_request(&self) -> bool {
+        self.inbox.take_card()
     }
 
     /// Numbers of items that were left out so far. Does not wait.

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::command::Command;
+use crate::picture::MOST_PICTURE;
 use crate::student::Frames;
 
 fn state(frame: u64) -> State {
@@ -67,6 +68,8 @@ fn somebody_holds_every_lock() {
         assert_eq!(port.commands(), []);
         port.wanted();
         port.take_key_request();
+        port.wants_card();
+        port.take_card_request();
     }
     let expected = LeftOut {
         states: 1,

@@ -85,6 +85,9 @@ pub struct State {
     pub controls: Controls,
     /// The present step of the procedure; `None` where there is none.
     pub step: Option<Step>,
+    /// The points so far; `None` where nothing is judged yet, and of a program that does not send them.
+    #[serde(default)]
+    pub points: Option<Points>,
     /// The last hints that were given.
     pub hints: List<Said, 16>,
     /// Measured values.
@@ -154,6 +157,16 @@ pub struct Step {
     pub of: u16,
     /// The instruction.
     pub title: Text<SENTENCE>,
+}
+
+/// Points of the present attempt so far: the lesson's, or the program's own where there is no lesson.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Points {
+    /// Points earned.
+    pub earned: u32,
+    /// Points that can be earned.
+    pub of: u32,
 }
 
 /// A sentence and its time.

@@ -125,6 +125,14 @@ impl Watcher {
         }
     }
 
+    /// Shows the class from now on, in place of its student: pictures are those of the cards.
+    ///
+    /// # Errors
+    /// [`NotServed`].
+    pub fn show_class(&mut self) -> Result<(), NotServed> {
+        self.say(&json!({"say": "close"}))
+    }
+
     /// Gives an order to its student; [`Heard::Ordered`] has its number.
     ///
     /// # Errors

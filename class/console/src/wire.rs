@@ -7,10 +7,12 @@ use crate::bounded::{List, Text};
 use crate::command::{Command, Order};
 use crate::picture::Codec;
 use crate::port::ORDERS;
-use crate::student::{Choice, NAME, SENTENCE, State, Student};
+use crate::student::{Choice, NAME, Points, SENTENCE, State, Step, Student};
 
-/// Version of the messages between student's program and hub. Another one is refused.
-pub const PROTOCOL: u32 = 3;
+/// Version of the messages between student's program and hub.
+pub const PROTOCOL: u32 = 4;
+/// The oldest version that a hub reads. Its states have no points, and its programs make no pictures for cards.
+pub const OLDEST_PROTOCOL: u32 = 3;
 /// Most bytes of a message from a page. The longest valid one is a message of [`MESSAGE`](crate::MESSAGE) characters, each escaped as 12
 /// bytes.
 pub const MOST_FROM_PAGE: usize = 4 << 10;
@@ -125,8 +127,10 @@ pub(crate) struct Brief {
     pub here: bool,
     /// The scene's title.
     pub scene: Text<NAME>,
-    /// The step of the procedure: its number, and the number of steps.
-    pub step: Option<[u16; 2]>,
+    /// The step of the procedure.
+    pub step: Option<Step>,
+    /// The points so far.
+    pub points: Option<Points>,
     /// Temperature of the hottest particle, °C.
     pub hottest_c: Option<f64>,
     /// Number of incidents of the present attempt.
@@ -157,9 +161,8 @@ impl Brief {
             name,
             here,
             scene: state.map(|state| state.scene.clone()).unwrap_or_default(),
-            step: state
-                .and_then(|state| state.step.as_ref())
-                .map(|step| [step.number, step.of]),
+            step: state.and_then(|state| state.step.clone()),
+            points: state.and_then(|state| state.points),
             // A tenth is what people read, and an unchanged class is not sent again.
             hottest_c: state
                 .and_then(hottest)
@@ -209,6 +212,9 @@ pub(crate) enum ToStudent {
         jpeg: bool,
         /// Whether the next picture in H.264 must be a key frame.
         key: bool,
+        /// Whether one picture for a card of the class is wanted. Left out where it is not: programs of [`OLDEST_PROTOCOL`] refuse it.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        card: bool,
     },
 }
 

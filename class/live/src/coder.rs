@@ -52,7 +52,7 @@ impl Coder {
     /// Whether somebody looks.
     pub fn is_wanted(&self) -> bool {
         let wanted = self.port.wanted();
-        wanted.h264 || wanted.jpeg
+        wanted.h264 || wanted.jpeg || self.port.wants_card()
     }
 
     /// Hands in the picture of that time (µs) since the view began; one that comes too soon after another is left out. Does not wait.
@@ -94,8 +94,8 @@ struct Coding {
 
 impl Coding {
     fn code(&mut self, port: &Port, picture: &RawPicture, time_us: u64) -> Result<(), Failure> {
-        let wanted = port.wanted();
-        if !wanted.h264 && !wanted.jpeg {
+        let (wanted, card) = (port.wanted(), port.take_card_request());
+        if !wanted.h264 && !wanted.jpeg && !card {
             return Ok(());
         }
         let Some(size) = self.unpack(picture)? else {
@@ -123,6 +123,10 @@ impl Coding {
         }
         if wanted.jpeg {
             let coded = EncodedPicture::jpeg(&self.rgba, sides, time_us).other()?;
+            port.picture(Arc::new(coded));
+        }
+        if card {
+            let coded = EncodedPicture::card(&self.rgba, sides, time_us).other()?;
             port.picture(Arc::new(coded));
         }
         Ok(())
@@ -158,5 +162,48 @@ impl Coding {
             }
         }
         Ok(Some(size))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::serve::{start, student};
+    use std::net::{Ipv4Addr, SocketAddr};
+    use std::time::{Duration, Instant};
+    use vitriol_console::{Heard, Watcher};
+    use vitriol_lesson::{Language, Texts};
+
+    /// The longest wait. The hub asks every 4 s; a machine that is busy may take longer.
+    const PATIENCE: Duration = Duration::from_secs(300);
+
+    /// A page that shows the class gets a small picture for a request, though no page shows the student.
+    #[test]
+    fn a_card_is_coded_where_it_is_asked_for() {
+        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
+        let hub = start(listen, false, Language::En).unwrap();
+        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
+        let port = hub.student(told).unwrap().unwrap();
+        let coder = Coder::new(&port).unwrap();
+        assert!(!coder.is_wanted());
+        let mut page = Watcher::enter(&hub, Codec::H264).unwrap();
+        page.show_class().unwrap();
+        let begun = Instant::now();
+        while !port.wants_card() {
+            assert!(begun.elapsed() < PATIENCE, "no card is asked for");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert!(coder.is_wanted() && !port.wanted().h264);
+        let side = 400;
+        let pixels = vec![200; 4 * 400 * 400];
+        coder.give(RawPicture::Rgba(pixels, [side, side]), 0);
+        let bytes = loop {
+            if let Heard::Picture(bytes) = page.hear().unwrap() {
+                break bytes;
+            }
+        };
+        // One colour takes a small part of the 16,000 bytes that a card may have.
+        assert!((8..16_008).contains(&bytes), "{bytes} bytes");
     }
 }

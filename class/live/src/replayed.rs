@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Order, State, Text};
-use vitriol_lesson::Texts;
+use vitriol_lesson::{Rubric, Texts};
 use vitriol_render::PassPicture;
 use vitriol_run::{
     Action, Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Judging, Outcome, Sample,
@@ -24,6 +24,8 @@ pub struct Live {
     console: Console,
     coder: Coder,
     texts: Texts,
+    /// The lesson's, where there is one.
+    rubric: Rubric,
     /// The scene that the track begins with.
     scene: String,
     /// Names of the flasks on the bench.
@@ -54,6 +56,7 @@ impl Live {
             coder: Coder::new(&console.port)?,
             console: console.clone(),
             texts: Texts::of(console.language).other()?,
+            rubric: Rubric::default(),
             scene: scene.to_owned(),
             flasks: Vec::new(),
             time: SimulatedTime::default(),
@@ -114,7 +117,8 @@ impl Live {
             return;
         };
         if self.attempts.0 != glimpse.events.len() {
-            self.attempts = (glimpse.events.len(), attempts(glimpse.events, &self.texts));
+            let attempts = attempts(glimpse.events, &self.texts, &self.rubric);
+            self.attempts = (glimpse.events.len(), attempts);
         }
         let state = self.state(&glimpse);
         self.console.port.publish(state);
@@ -148,6 +152,7 @@ impl Live {
             done: self.done,
             controls,
             step: None,
+            points: attempts.points,
             hints: List::default(),
             readings: readings(scene, &self.flasks, glimpse.flasks, glimpse.spilt),
             incidents: attempts.incidents.clone(),
@@ -212,6 +217,7 @@ impl Experiment for Live {
     }
 
     fn judge(&mut self, lesson: Judging) {
+        self.rubric = lesson.procedure().lesson().rubric();
         self.inner.judge(lesson);
     }
 

@@ -1,7 +1,7 @@
 //! The state of a run's liquid and its incidents, as they are sent to the console.
 
-use vitriol_console::{Flask, Incident, List, Readings, Text};
-use vitriol_lesson::{Attempt, Event, Texts, What};
+use vitriol_console::{Flask, Incident, List, Points, Readings, Text};
+use vitriol_lesson::{Attempt, Event, Rubric, Score, Texts, What};
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Held;
 
@@ -18,14 +18,16 @@ pub struct Attempts {
     pub incidents: List<Incident, MOST>,
     /// Number of incidents of the present attempt.
     pub of_present: u32,
+    /// The program's own points of the present attempt; `None` where nothing is judged yet.
+    pub points: Option<Points>,
     /// Number of incidents in all.
     pub so_far: u32,
     /// Number of grave ones in all.
     pub grave_so_far: u32,
 }
 
-/// The attempts in these events.
-pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
+/// The attempts in these events, the present one scored by `rubric`.
+pub fn attempts(events: &[Event], texts: &Texts, rubric: &Rubric) -> Attempts {
     let attempts = Attempt::all(events.iter().cloned());
     let of = |(number, attempt): (u32, &Attempt)| -> Vec<_> {
         let incidents = attempt.incidents.iter();
@@ -46,6 +48,8 @@ pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
     let present = attempts.len() as u32;
     let so_far = incidents.len() as u32;
     let grave_so_far = incidents.iter().filter(|it| it.grave).count() as u32;
+    let score = attempts.last().map(|it| Score::of(it, rubric, texts));
+    let score = score.filter(|score| score.of > 0);
     let mut over = incidents.len().saturating_sub(MOST);
     for matters in [false, true] {
         incidents.retain(|it| {
@@ -57,6 +61,10 @@ pub fn attempts(events: &[Event], texts: &Texts) -> Attempts {
     Attempts {
         present,
         of_present: attempts.last().map_or(0, |it| it.incidents.len() as u32),
+        points: score.map(|score| Points {
+            earned: score.points,
+            of: score.of,
+        }),
         so_far,
         grave_so_far,
         incidents: List::clipped(incidents),
@@ -136,12 +144,15 @@ mod tests {
             };
             found(t_s, what)
         };
-        let texts = Texts::english().unwrap();
+        let (texts, rubric) = (Texts::english().unwrap(), Rubric::default());
         let mut events = vec![begun(0.0, "water-into-acid")];
         events.extend((1..=40).map(|t| dropped(f64::from(t))));
         events.extend([begun(50.0, "my-own"), dropped(51.0)]);
-        let told = attempts(&events, &texts);
+        let told = attempts(&events, &texts, &rubric);
         assert_eq!([told.present, told.of_present, told.so_far], [2, 1, 41]);
+        // By the table of the score: glass is worth 5 points, a flask that was dropped and no pour leave none of them, and the rest is not
+        // judged.
+        assert_eq!(told.points, Some(Points { earned: 0, of: 5 }));
         // The last ones of all.
         let whose: Vec<_> = told.incidents.iter().map(|it| it.attempt).collect();
         assert_eq!(whose, [&[1_u32; 31][..], &[2]].concat());
@@ -153,20 +164,23 @@ mod tests {
         events.insert(1, boiled_over(0.5));
         events.push(boiled_over(52.0));
         events.extend((60..100).map(|t| dropped(f64::from(t))));
-        let told = attempts(&events, &texts);
+        let told = attempts(&events, &texts, &rubric);
         assert_eq!(
             [told.of_present, told.so_far, told.grave_so_far],
             [42, 83, 2]
         );
+        // What boiled over is worth 15.
+        assert_eq!(told.points, Some(Points { earned: 0, of: 20 }));
         let times: Vec<_> = told.incidents.iter().filter_map(|it| it.t_s).collect();
         let last = (69..100).map(f64::from);
         assert_eq!(times, [52.0].into_iter().chain(last).collect::<Vec<_>>());
         // More grave ones than fit: the last of them.
         events.extend((100..140).map(|t| boiled_over(f64::from(t))));
-        let told = attempts(&events, &texts);
+        let told = attempts(&events, &texts, &rubric);
         assert_eq!([told.so_far, told.grave_so_far], [123, 42]);
         let times: Vec<_> = told.incidents.iter().filter_map(|it| it.t_s).collect();
         assert_eq!(times, (108..140).map(f64::from).collect::<Vec<_>>());
-        assert_eq!(attempts(&[], &texts).present, 0);
+        let none = attempts(&[], &texts, &rubric);
+        assert_eq!((none.present, none.points), (0, None));
     }
 }

@@ -178,6 +178,16 @@ fn a_class_is_graded_by_its_lesson() {
     let page = fs::read_to_string(out.join("grades.html")).unwrap();
     let at = |text: &str| page.find(text).unwrap();
     assert!(at("42 / 100") < at(" / 85"), "{page}");
+    // So they do on the page on her recording, with their table.
+    let page = fs::read_to_string(out.join("ada.report.html")).unwrap();
+    let at = |text: &str| page.find(text).unwrap();
+    let (lesson, score) = (at("href=\"#lesson-1\""), at("href=\"#score-1\""));
+    assert!(lesson < score, "{page}");
+    assert!(
+        page[lesson..score].contains("<strong>42</strong>"),
+        "{page}"
+    );
+    assert!(at("id=\"lesson-1\"") < at("id=\"score-1\""), "{page}");
 
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     let table = table.trim_start_matches('\u{feff}');

@@ -14,7 +14,7 @@ use super::shared::Shared;
 use crate::bounded::List;
 use crate::picture::EncodedPicture;
 use crate::port::Inbox;
-use crate::wire::{FromStudent, MOST_STATE, PROTOCOL, ToStudent, read};
+use crate::wire::{FromStudent, MOST_STATE, OLDEST_PROTOCOL, PROTOCOL, ToStudent, read};
 
 /// Time between two pings to a program.
 const PING: Duration = Duration::from_secs(5);
@@ -24,7 +24,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 /// Serves a program's socket to its end. An invalid message ends it: it comes from a program, not from a person.
 pub(super) async fn serve(socket: WebSocket, hub: Arc<Shared>, place: Arc<Place>) {
     let (sender, mut receiver) = socket.split();
-    let Some((instance, student)) = hello(&mut receiver).await else {
+    let Some((protocol, instance, student)) = hello(&mut receiver).await else {
         return;
     };
     let inbox = Arc::new(Inbox::default());
@@ -32,47 +32,55 @@ pub(super) async fn serve(socket: WebSocket, hub: Arc<Shared>, place: Arc<Place>
         return;
     };
     tokio::select! {
-        () = send(sender, &inbox) => {}
+        () = send(sender, &inbox, protocol) => {}
         () = receive(receiver, &hub, seat) => {}
     }
     hub.registry.left(seat);
     drop(place);
 }
 
-type Hello = (crate::Text<{ crate::NAME }>, crate::Student);
+/// The version of a program's messages, its run's number, and its description.
+type Hello = (u32, crate::Text<{ crate::NAME }>, crate::Student);
 
 async fn hello(receiver: &mut SplitStream<WebSocket>) -> Option<Hello> {
     let first = timeout(SILENCE, receiver.next()).await.ok()??.ok()?;
     let Message::Text(text) = first else {
         return None;
     };
-    match read(&text, MOST_STATE)? {
+    introduced(&text)
+}
+
+/// A program's first message; `None` of anything else, and of a version that this hub does not read.
+fn introduced(text: &str) -> Option<Hello> {
+    match read(text, MOST_STATE)? {
         FromStudent::Hello {
-            protocol: PROTOCOL,
+            protocol: protocol @ OLDEST_PROTOCOL..=PROTOCOL,
             instance,
             student,
-        } => Some((instance, student)),
+        } => Some((protocol, instance, student)),
         _ => None,
     }
 }
 
-async fn send(mut sender: SplitSink<WebSocket, Message>, inbox: &Inbox) {
+async fn send(mut sender: SplitSink<WebSocket, Message>, inbox: &Inbox, protocol: u32) {
     let mut told = None;
     loop {
         let orders = inbox.take_orders();
         let (wanted, key) = (inbox.wanted(), inbox.take_key());
+        let card = inbox.take_card() && protocol > OLDEST_PROTOCOL;
         let mut messages = Vec::new();
         if !orders.is_empty() {
             messages.push(ToStudent::Orders {
                 orders: List::clipped(orders),
             });
         }
-        if told != Some(wanted) || key {
+        if told != Some(wanted) || key || card {
             told = Some(wanted);
             messages.push(ToStudent::Wanted {
                 h264: wanted.h264,
                 jpeg: wanted.jpeg,
                 key,
+                card,
             });
         }
         let mut messages: Vec<_> = (messages.iter())
@@ -110,5 +118,26 @@ async fn receive(mut receiver: SplitStream<WebSocket>, hub: &Shared, seat: Seat)
         if !is_seated {
             return;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A class need not change all its programs on one day.
+    #[test]
+    fn a_program_of_the_version_before_comes_in() {
+        let hello = |protocol: u32| {
+            introduced(&format!(
+                r#"{{"say":"hello","protocol":{protocol},"instance":"a","student":{{"name":"Ada","version":"0.1.0",
+                "choices":[],"k_v":null,"replays":false}}}}"#
+            ))
+        };
+        let admitted = (0..9).filter(|protocol| hello(*protocol).is_some());
+        assert_eq!(admitted.collect::<Vec<_>>(), [3, 4]);
+        let (protocol, _, student) = hello(3).unwrap_or_default();
+        assert_eq!((protocol, &*student.name), (3, "Ada"));
+        assert_eq!(introduced(r#"{"say":"state","state":{}}"#), None);
     }
 }

@@ -1,7 +1,7 @@
-//! Messages that wait for a page: the last class and the last state, and bounded queues of answers and pictures. A browser that is slow,
-//! or dead, delays nothing, and no queue grows.
+//! Messages that wait for a page: the last class, the last state and each card's last picture, and bounded queues of answers and
+//! pictures. A browser that is slow, or dead, delays nothing, and no queue grows.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Mutex;
 
 use axum::body::Bytes;
@@ -28,6 +28,8 @@ struct Letters {
     answers: VecDeque<Utf8Bytes>,
     class: Option<Utf8Bytes>,
     state: Option<Utf8Bytes>,
+    /// Pictures for cards of the class, by the student's number.
+    cards: BTreeMap<u32, Bytes>,
     pictures: Pictures,
     is_closed: bool,
     left_out: u64,
@@ -87,10 +89,19 @@ impl Mailbox {
         needs_key
     }
 
+    /// Replaces the picture of a student's card that waits.
+    pub fn card(&self, student: u32, message: Bytes) {
+        self.put(|letters| {
+            let replaced = letters.cards.insert(student, message);
+            letters.left_out += u64::from(replaced.is_some());
+        });
+    }
+
     /// Drops what waits of the last student or kind of pictures: from here on they are others.
     pub fn restart(&self) {
         let mut letters = lock(&self.letters);
         letters.state = None;
+        letters.cards.clear();
         letters.pictures.restart();
     }
 
@@ -108,10 +119,12 @@ impl Mailbox {
         let text = letters.answers.pop_front();
         let text = text.or_else(|| letters.class.take());
         let text = text.or_else(|| letters.state.take());
-        Ok(match text {
-            Some(text) => Some(Letter::Text(text)),
-            None => letters.pictures.pop().map(Letter::Picture),
-        })
+        if let Some(text) = text {
+            return Ok(Some(Letter::Text(text)));
+        }
+        let card = letters.cards.pop_first().map(|(_, card)| card);
+        let picture = card.or_else(|| letters.pictures.pop());
+        Ok(picture.map(Letter::Picture))
     }
 
     /// How many messages wait, and how many were left out.
@@ -119,7 +132,7 @@ impl Mailbox {
         let letters = lock(&self.letters);
         let slots = usize::from(letters.class.is_some()) + usize::from(letters.state.is_some());
         Load {
-            waiting: letters.answers.len() + slots + letters.pictures.len(),
+            waiting: letters.answers.len() + slots + letters.cards.len() + letters.pictures.len(),
             left_out: letters.left_out + letters.pictures.left_out,
         }
     }
@@ -132,4 +145,11 @@ pub(super) struct Looks {
     pub student: Option<u32>,
     /// The pictures that it wants; `None` while the mirror is hidden.
     pub codec: Option<Codec>,
+}
+
+impl Looks {
+    /// Whether it shows the class, with pictures on the cards.
+    pub fn shows_cards(&self) -> bool {
+        self.student.is_none() && self.codec.is_some()
+    }
 }

@@ -20,6 +20,9 @@ use crate::wire::{Brief, FromPage, ToPage};
 /// Students at a time. Our choice: more than a class has.
 pub(super) const STUDENTS: usize = 64;
 
+/// Ticks of the hub between two pictures of a student's card: 4 s. Our choice: a glance shows who has stopped, and a class of 30 sends 120 kB/s at most.
+const CARD_TICKS: u64 = 16;
+
 /// A student's connection: the student's number, and the connection's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Seat {
@@ -35,6 +38,8 @@ struct Entry {
     connection: Option<u64>,
     state: Option<State>,
     ordered: u64,
+    /// Whether a picture for its card was asked for and has not come.
+    awaits_card: bool,
 }
 
 struct Page {
@@ -50,6 +55,7 @@ struct Inner {
     /// The last number given to a student, to a connection and to a page.
     numbers: [u64; 3],
     class: Utf8Bytes,
+    ticks: u64,
 }
 
 /// The students and pages of a hub; routes states, pictures and orders between them.
@@ -86,6 +92,7 @@ impl Registry {
             state: None,
             // A program's states have the number of the last order that it did, over all its connections.
             ordered: inner.students.get(&student).map_or(0, |e| e.ordered),
+            awaits_card: false,
         };
         inner.students.insert(student, entry);
         inner.open_again(student);
@@ -130,8 +137,15 @@ impl Registry {
     /// connection.
     pub fn picture(&self, seat: Seat, gap: bool, picture: &EncodedPicture) -> bool {
         let inner = &mut *lock(&self.0);
-        if inner.at(seat).is_none() {
+        let Some(entry) = inner.at(seat) else {
             return false;
+        };
+        if picture.codec == Codec::Card {
+            // One that nobody asked for is not passed on, so that the bytes for a page have a bound.
+            if std::mem::take(&mut entry.awaits_card) {
+                inner.show_card(seat.student, picture);
+            }
+            return true;
         }
         let mut message = None;
         let mut needs_key = false;
@@ -206,7 +220,7 @@ impl Registry {
         }
     }
 
-    /// Sends the class to all pages if it has changed, and closes those whose session is not open any more.
+    /// Sends the class to all pages if it has changed, closes those whose session is not open any more, and asks for pictures of cards.
     pub fn tick(&self, is_open: impl Fn(SessionId) -> bool) {
         let inner = &mut *lock(&self.0);
         let class = inner.class();
@@ -219,6 +233,7 @@ impl Registry {
             }
         }
         inner.class = class;
+        inner.ask_cards();
     }
 
     /// Number of students, number of pages, and the load of each page.
@@ -253,6 +268,32 @@ impl Inner {
             students: self.students.iter().map(brief).collect(),
             choices: choices.cloned().unwrap_or_default(),
         })
+    }
+
+    /// Asks for pictures of the cards whose turn it is, where some page shows them. Students take turns, so that a class's pictures do not
+    /// come at once.
+    fn ask_cards(&mut self) {
+        self.ticks += 1;
+        if !self.pages.values().any(|page| page.looks.shows_cards()) {
+            return;
+        }
+        for (student, entry) in &mut self.students {
+            let is_due = (self.ticks + u64::from(*student)).is_multiple_of(CARD_TICKS);
+            if is_due && entry.connection.is_some() {
+                entry.awaits_card = true;
+                entry.inbox.ask_card();
+            }
+        }
+    }
+
+    /// Sends a student's picture to the pages that show its card.
+    fn show_card(&self, student: u32, picture: &EncodedPicture) {
+        let message = Bytes::from(picture.to_card(student));
+        for page in self.pages.values() {
+            if page.looks.shows_cards() {
+                page.mailbox.card(student, message.clone());
+            }
+        }
     }
 
     /// Sets which pictures of a student are wanted, by the pages that show it.
@@ -375,3 +416,7 @@ fn opened(student: u32, entry: &Entry) -> ToPage {
         is: entry.is.clone(),
     }
 }
+
+#[cfg(test)]
+#[path = "registry_tests.rs"]
+mod tests;

@@ -14,6 +14,8 @@ const make = (tag, text = "", mark = "") => {
 const write = (at, text) => { if (at.textContent !== text) at.textContent = text; };
 const known = (value) => typeof value === "number";
 const digits = (value, count) => known(value) ? value.toFixed(count) : "–";
+const stepText = (step) => tr(step.number > step.of ? "step_done" : "step_title", step);
+const pointsText = (points) => points ? tr("points", points) : "";
 const seconds = (value) => known(value) ? value.toFixed(1) + " s" : "–";
 
 const page = {

@@ -9,7 +9,10 @@ function newCard(number) {
   const button = make("button");
   button.type = "button";
   button.dataset.student = number;
-  button.append(make("strong"), ...Array.from({ length: 5 }, () => make("span")));
+  const picture = make("canvas");
+  picture.hidden = true;
+  picture.setAttribute("aria-hidden", "true");
+  button.append(make("strong"), ...Array.from({ length: 6 }, () => make("span")), picture);
   button.onclick = () => open(number);
   const item = make("li");
   item.append(button);
@@ -24,7 +27,8 @@ function card(student) {
   button.classList.toggle("troubled", student.incidents > 0);
   const lines = [
     student.here ? student.scene || "–" : tr("not_connected"),
-    student.step ? tr("step_of", { step: student.step[0], of: student.step[1] }) : "",
+    student.step ? stepText(student.step) : "",
+    pointsText(student.points),
     known(student.hottest_c) ? tr("hottest", { temperature: student.hottest_c.toFixed(1) }) : "",
     student.paused ? tr("paused") : "",
     student.incidents > 0 ? `⚠ ${count(student.incidents, "incident")}: ${student.gravest ?? ""}` : "",
@@ -33,8 +37,28 @@ function card(student) {
     write(button.children[at], line);
     button.children[at].hidden = !line;
   });
+  if (!student.here) button.querySelector("canvas").hidden = true;
   return item;
 }
+
+// A card's picture, behind the student's number. It is taken away where the next three, which are 4 s apart, have not come.
+const OLD = 15000;   // ms
+async function receiveCard(head) {
+  const canvas = cards.get(head.getUint32(4, true))?.querySelector("canvas");
+  if (!canvas || page.hides || page.opened !== null) return;
+  try {
+    const image = await createImageBitmap(new Blob([new Uint8Array(head.buffer, 8)], { type: "image/jpeg" }));
+    Object.assign(canvas, { width: image.width, height: image.height, hidden: false });
+    canvas.getContext("2d").drawImage(image, 0, 0);
+    image.close();
+    canvas.dataset.drawn = performance.now();
+  } catch { /* A broken one is left out. */ }
+}
+setInterval(() => {
+  for (const canvas of $("students").querySelectorAll("canvas")) {
+    if (performance.now() - canvas.dataset.drawn > OLD) canvas.hidden = true;
+  }
+}, 1000);
 
 // What is pressed stays where it is until it is let go.
 function showCards(pressed) {
@@ -91,7 +115,10 @@ function showOpened(student, is) {
   $("summary").hidden = true;
   forgetPicture();
   // A student that was lost for a moment keeps its curves.
-  if (curvesOf !== student) forgetCurves();
+  if (curvesOf !== student) {
+    forgetCurves();
+    zoomTo(1);
+  }
   curvesOf = student;
   loseOrders();
   showScenes();

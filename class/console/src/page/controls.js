@@ -197,7 +197,8 @@ function showState(state) {
   page.state = state;
   showControls(state);
   const { step, hints } = state;
-  write($("step"), step ? tr(step.number > step.of ? "step_done" : "step_title", step) : tr("no_procedure"));
+  write($("step"), step ? stepText(step) : tr("no_procedure"));
+  write($("points"), pointsText(state.points));
   $("progress").hidden = !step;
   if (step) Object.assign($("progress"), { max: Math.max(step.of, 1), value: Math.max(step.number - 1, 0) });
   entries($("hints"), hints);

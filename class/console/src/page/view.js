@@ -45,8 +45,9 @@ function draw(image, width, height) {
 }
 
 function receivePicture(buffer) {
-  if (page.hides || page.opened === null) return;
   const head = new DataView(buffer);
+  if (head.getUint8(0) === 3) return receiveCard(head);
+  if (page.hides || page.opened === null) return;
   const picture = {
     isKey: head.getUint8(1) === 1,
     width: head.getUint16(4, true),
@@ -135,10 +136,11 @@ function showAge() {
 }
 setInterval(showAge, 250);
 
-$("zoom").onclick = $("picture").onclick = () => {
+$("zoom").onclick = () => {
   const zoomed = $("student").classList.toggle("zoomed");
   $("zoom").setAttribute("aria-pressed", zoomed);
 };
+$("picture").onclick = () => { if (!dragged) $("zoom").click(); };
 
 function showHiding() {
   $("hide").setAttribute("aria-pressed", page.hides);

@@ -1,6 +1,8 @@
 //! The hub against real browsers and against clients that behave as no browser would.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[cfg(target_os = "linux")]
+mod cards;
 mod client;
 mod crowd;
 #[cfg(target_os = "linux")]
@@ -15,3 +17,5 @@ mod page;
 mod proxy;
 mod security;
 mod student;
+#[cfg(target_os = "linux")]
+mod zoom;

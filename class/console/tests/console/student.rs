@@ -12,8 +12,8 @@ use openh264::encoder::{
 };
 use openh264::formats::{RgbaSliceU8, YUVBuffer};
 use vitriol_console::{
-    Choice, Codec, Command, Config, EncodedPicture, Flask, Hub, Incident, Kind, List, Port, Range,
-    Said, State, Step, Student, Text,
+    Choice, Codec, Command, Config, EncodedPicture, Flask, Hub, Incident, Kind, List, Points, Port,
+    Range, Said, State, Step, Student, Text,
 };
 use vitriol_tests::wait::PATIENCE;
 
@@ -79,6 +79,7 @@ pub fn first_state() -> State {
             of: 7,
             title: Text::clipped("Pour the acid into the water, slowly."),
         }),
+        points: Some(Points { earned: 12, of: 40 }),
         hints: List::clipped([said(1.5, "Put the goggles on."), said(8.25, "Slower.")]),
         incidents: List::clipped([Incident {
             t_s: Some(12.5),
@@ -160,6 +161,10 @@ impl Camera {
 
     pub fn jpeg(&self) -> EncodedPicture {
         EncodedPicture::jpeg(&self.rgba, SIZE, self.taken).unwrap()
+    }
+
+    pub fn card(&self) -> EncodedPicture {
+        EncodedPicture::card(&self.rgba, SIZE, self.taken).unwrap()
     }
 
     pub fn h264(&mut self, is_key: bool) -> EncodedPicture {
@@ -257,6 +262,9 @@ fn frames(port: &Port, done: &Sender<Command>, over: &AtomicBool, state: &Mutex<
         }
         if wanted.jpeg {
             port.picture(Arc::new(camera.jpeg()));
+        }
+        if port.take_card_request() {
+            port.picture(Arc::new(camera.card()));
         }
         std::thread::sleep(Duration::from_millis(10));
     }

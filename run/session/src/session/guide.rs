@@ -1,6 +1,6 @@
 //! The lesson that a session goes through, as panel and console show it.
 
-use vitriol_console::{Said, Step, Text};
+use vitriol_console::{Points, Said, Step, Text};
 use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Language, Lesson, Mode, Texts};
 use vitriol_run::{Action, Blame, Failure, Judging, Run};
@@ -45,6 +45,8 @@ pub(super) struct Guide {
     hinted: Option<String>,
     /// Why a step failed last, and when that was reported, s.
     failed: Option<(f64, String)>,
+    /// The lesson's points so far; `None` before its beginning.
+    points: Option<Points>,
 }
 
 impl Guide {
@@ -61,6 +63,7 @@ impl Guide {
             hints: Vec::new(),
             hinted: None,
             failed: None,
+            points: None,
         })
     }
 
@@ -101,6 +104,14 @@ impl Guide {
         let Some(course) = &self.course else {
             return;
         };
+        // Whatever changes the points is progress.
+        if !new.is_empty() {
+            let verdict = run.judging().map(|it| it.procedure().verdict());
+            self.points = verdict.map(|it| Points {
+                earned: it.points,
+                of: it.of,
+            });
+        }
         let texts = course.lesson.texts(course.language);
         for progress in new {
             match progress {
@@ -148,6 +159,12 @@ impl Guide {
             of: state.steps.len() as u16,
             title: Text::clipped(title.map_or(&texts.title, |step| &step.text)),
         })
+    }
+
+    /// The lesson's points so far in the run's scene.
+    pub fn points(&self, run: &Run) -> Option<Points> {
+        self.of(run)?;
+        self.points
     }
 
     /// Hints that were given, the last ones, as the console shows them.

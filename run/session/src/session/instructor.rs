@@ -6,9 +6,11 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use vitriol_console::{Coming, Command, Controls, Frames, List, Said, State, Step, Student, Text};
+use vitriol_console::{
+    Coming, Command, Controls, Frames, List, Points, Said, State, Step, Student, Text,
+};
 use vitriol_gpu::{Gpu, Image};
-use vitriol_lesson::{Event, Language, Texts};
+use vitriol_lesson::{Event, Language, Rubric, Texts};
 use vitriol_run::{Action, Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -51,9 +53,12 @@ pub(super) struct Now<'a> {
     /// The display's period, s.
     pub period: Option<f64>,
     pub missed: u64,
-    /// The lesson's step and the hints that were given.
+    /// The lesson's step and points, and the hints that were given.
     pub step: Option<Step>,
+    pub points: Option<Points>,
     pub hints: List<Said, 16>,
+    /// Of the program's own points.
+    pub rubric: &'a Rubric,
     pub ended: bool,
 }
 
@@ -214,7 +219,8 @@ impl Instructor {
             return;
         };
         if self.attempts.0 != now.events.len() {
-            self.attempts = (now.events.len(), attempts(now.events, &self.texts));
+            let attempts = attempts(now.events, &self.texts, now.rubric);
+            self.attempts = (now.events.len(), attempts);
         }
         self.worked |= now.holds;
         port.publish(self.state(now));
@@ -244,6 +250,7 @@ impl Instructor {
                 ..self.controls.clone()
             },
             step: now.step.clone(),
+            points: now.points.or(attempts.points.filter(|_| !is_new)),
             hints: now.hints.clone(),
             readings: readings(
                 scene,

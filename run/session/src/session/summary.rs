@@ -39,6 +39,11 @@ impl Summary {
         &self.texts
     }
 
+    /// Weights and limits of its points.
+    pub fn rubric(&self) -> &Rubric {
+        &self.rubric
+    }
+
     /// Asks for the summary, or takes that back.
     pub fn toggle(&mut self) {
         self.asked = !self.asked;

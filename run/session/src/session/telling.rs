@@ -108,6 +108,8 @@ impl Session {
             period: period.map(|info| 1e-9 * info.period_ns as f64),
             missed: self.counts.skipped,
             step: self.guide.step(run),
+            points: self.guide.points(run),
+            rubric: self.summary.rubric(),
             hints: List::clipped(self.guide.hints()),
             ended,
         });
