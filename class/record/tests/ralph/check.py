@@ -1,8 +1,9 @@
 """What Ralph and Python read of statements and of a class's file.
 
 Ralph's command `validate` knows the statements of some profiles alone (video, learning management systems and such), and passes
-over all others as unknown. So each is held against the model that those are all made from: it has every rule of xAPI 1.0.3 for
-a statement (names of properties, identifiers as RFC 3987 and 4122 have them, languages, durations, scores, nothing empty).
+over all others as unknown. So each is held against the model that those are all made from: it has the rules of xAPI 1.0.3 for
+a statement (names of properties, identifiers as RFC 3987 and 4122 have them, languages, nothing empty). Numbers as text and durations
+as numbers it takes too (findings/ralph-validated-statements.sh), so their types are looked at here.
 """
 
 import datetime
@@ -18,7 +19,11 @@ lines, class_file, attempt = sys.argv[1:]
 found = []
 with open(lines, encoding="utf-8") as file:
     for position, line in enumerate(file):
-        statement = BaseXapiStatement(**json.loads(line))
+        given = json.loads(line)
+        result_given = given.get("result", {})
+        assert all(type(it) in (int, float) for it in result_given.get("score", {}).values()), line
+        assert type(result_given.get("duration", "")) is str, line
+        statement = BaseXapiStatement(**given)
         expected = uuid.uuid5(uuid.UUID(attempt), f"statement/{position}")
         assert statement.id == expected, (statement.id, expected)
         assert statement.timestamp.utcoffset() == datetime.timedelta(0)
