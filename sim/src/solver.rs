@@ -34,6 +34,7 @@ mod spec;
 mod spray;
 mod state;
 mod steam;
+mod still;
 mod transfer;
 mod vapour;
 mod vessels;
@@ -64,6 +65,7 @@ use grid::Grid;
 use pipelines::{Constants, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::SteamPasses;
+use still::Still;
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu, QueueKind};
 use vitriol_shaders::Library;
@@ -88,6 +90,7 @@ pub struct Solver {
     steam: Option<SteamPasses>,
     looks: Looks,
     bundles: Bundles,
+    still: Still,
 }
 
 impl Solver {
@@ -144,6 +147,7 @@ impl Solver {
             steam,
             looks,
             bundles: Bundles::default(),
+            still: Still::default(),
         };
         solver.restore(&start)?;
         Ok(solver)
@@ -152,6 +156,7 @@ impl Solver {
     /// Solves from the next frame on with these substeps a frame and iterations a substep; only
     /// the poses' buffer and the iterations' coefficients depend on them.
     pub(crate) fn set_effort(&mut self, substeps: u32, iterations: u32) -> Result<(), SolverError> {
+        self.still.disturb();
         let bytes = buffers::bytes_of_poses(substeps, self.flasks as u64);
         if self.buffers.poses.bytes() < bytes {
             self.buffers.poses = Buffer::storage(&self.gpu, "poses", bytes)?;

@@ -43,6 +43,7 @@ impl Solver {
         if self.count == 0 {
             return Ok(());
         }
+        self.still.disturb();
         let bubbles = self.parameters.bubbles();
         // Two records of drops for each place of a bubble.
         let places = bubbles.map_or(0, |bubbles| 2 * bubbles.slots());

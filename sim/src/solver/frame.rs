@@ -15,6 +15,9 @@ use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
 pub struct FrameRecord {
     loads: Option<Readback>,
     flasks: usize,
+    /// Counted by the solver.
+    pub(super) frame: u64,
+    sleep: Option<Readback>,
 }
 
 impl FrameRecord {
@@ -39,6 +42,17 @@ impl FrameRecord {
         }
         Ok(sums)
     }
+
+    /// Number of particles that did not sleep in the frame; `None` where none may.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] before the frame is done.
+    pub fn awake(&self) -> Result<Option<u32>, SolverError> {
+        let Some(readback) = &self.sleep else {
+            return Ok(None);
+        };
+        Ok(readback.get::<u32>()?.first().copied())
+    }
 }
 
 impl Solver {
@@ -57,15 +71,25 @@ impl Solver {
             return Ok(FrameRecord {
                 loads: None,
                 flasks: self.flasks,
+                frame: 0,
+                sleep: None,
             });
         }
         self.listed.store(true, Ordering::Relaxed);
-        self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
-        self.solve(rec)?; // the others
+        let (frame, is_still) = self.still.count(before, after);
+        if is_still {
+            self.record_still(rec)?;
+        } else {
+            self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
+            self.solve(rec)?; // the others
+        }
         let loads = self.has_loads().then(|| rec.read_back(&self.buffers.loads));
+        let sleep = (self.pipelines.sleep.is_some()).then(|| rec.read_back(&self.buffers.sleep));
         Ok(FrameRecord {
             loads: loads.transpose()?,
             flasks: self.flasks,
+            frame,
+            sleep: sleep.transpose()?,
         })
     }
 
@@ -118,16 +142,22 @@ impl Solver {
                 .constants(&self.step(substeps - 1))
                 .invocations(self.count)?;
         }
-        if let Some(glass) = &p.glass {
+        self.record_surroundings(rec)?;
+        self.load(rec)
+    }
+
+    /// Records what glass and air do in a frame.
+    pub(super) fn record_surroundings(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        let step = self.step(self.parameters.substeps - 1);
+        if let Some(glass) = &self.pipelines.glass {
             self.pass(rec, glass)
-                .constants(&self.step(substeps - 1))
+                .constants(&step)
                 .workgroups([self.flasks as u32, 1, 1])?;
         }
         if let Some(steam) = &self.steam {
-            let step = self.step(substeps - 1);
             steam.record(rec, &self.buffers.all(&self.vessels), &step)?;
         }
-        self.load(rec)
+        Ok(())
     }
 
     /// Records a pass that writes each particle's density over the rest
@@ -214,7 +244,7 @@ impl Solver {
         self.loads && self.flasks > 0
     }
 
-    fn load(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+    pub(super) fn load(&self, rec: &mut Recorder) -> Result<(), SolverError> {
         if !self.has_loads() {
             return Ok(());
         }

@@ -34,6 +34,7 @@ impl Solver {
         if self.count == 0 {
             return Ok(());
         }
+        self.still.disturb();
         let [a, b] = touch.ends.map(|it| it.to_array());
         let [velocity_a, velocity_b] = touch.velocities.map(|it| it.to_array());
         let handle = Handle {

@@ -235,6 +235,7 @@ impl Solver {
         let any = state.list_counts.iter().any(|&count| count > 0);
         self.listed.store(any, Ordering::Relaxed);
         self.looks.begin_anew();
+        self.still.disturb();
         let (b, gpu) = (&self.buffers, &self.gpu);
         // All in one submission: beside a session's frames each wait takes as long as the pictures under way.
         let mut rec = gpu.recorder(QueueKind::Main)?;

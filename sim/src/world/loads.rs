@@ -41,6 +41,9 @@ impl World {
             return Ok(Vec::new());
         };
         let loads = due.read()?;
+        if let PendingLoad::Device(record, _) = &*due {
+            self.solver.note(record)?;
+        }
         for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
             *stirring = sum.angular[3];
         }

@@ -309,3 +309,40 @@ fn a_plate_keeps_liquid_awake() {
     frames(&gpu, &solver, &[Pose::IDENTITY], 30);
     assert_eq!(solver.awake().unwrap(), 200);
 }
+
+/// Once a finished frame has told that all liquid sleeps, frames are recorded without it; the bits, and the loads, are as with all passes.
+#[test]
+fn still_frames_have_the_same_bits() {
+    let gpu = gpu::device();
+    let p = with(Chemistry::Physical(with_bubbles()), calm());
+    let mut setup = Setup::new(p, vec![narrow_glass()], glass_of(500, |_| (20.0, 0.5)));
+    setup.loads = true;
+    let [noting, not] = [0; 2].map(|_| setup.solver(&gpu));
+    let both = |before: Pose, after: Pose| {
+        let [(state, loads), (same, others)] = [&noting, &not].map(|solver| {
+            let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+            let record = solver.record(&mut rec, &[before], &[after]).unwrap();
+            gpu.submit(rec).unwrap().wait().unwrap();
+            if std::ptr::eq(solver, &raw const noting) {
+                solver.note(&record).unwrap();
+            }
+            (solver.snapshot().unwrap(), record.loads().unwrap())
+        });
+        assert!(state == same);
+        assert_eq!(bytemuck::cast_slice::<_, u32>(&loads), bytemuck::cast_slice::<_, u32>(&others));
+    };
+    let still = (0..SETTLED).filter(|_| {
+        both(Pose::IDENTITY, Pose::IDENTITY);
+        noting.is_still()
+    });
+    assert!(still.count() > 5);
+    assert!(!not.is_still());
+    let mut pose = Pose::IDENTITY;
+    for n in 0..8 {
+        let next = at(pose.position.x + 0.003, 0.0, 0.0);
+        both(pose, next);
+        assert!(!noting.is_still(), "{n}");
+        assert_eq!(noting.awake().unwrap(), 500);
+        pose = next;
+    }
+}

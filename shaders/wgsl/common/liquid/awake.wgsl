@@ -21,7 +21,9 @@ fn awake_count() -> u32 {
 /// Whether particles of a membership rest.
 fn sleeps(membership: u32) -> bool {
     if (SLEEP) {
-        if (membership == NOBODYS || membership == REMOVED) { return false; }
+        if (membership == NOBODYS) { return false; }
+        // Taken out, a particle needs no pass.
+        if (membership == REMOVED) { return true; }
         return sleep[SLEEP_FLASKS + membership - 1u] != 0u;
     }
     return false;
