@@ -179,6 +179,13 @@ impl Scene {
         (scene, gone)
     }
 
+    /// The scene in which no liquid sleeps.
+    pub fn without_sleep(&self) -> Self {
+        let mut scene = self.clone();
+        scene.solver.sleep = false;
+        scene
+    }
+
     /// Fluid particles that represent `liquid`.
     pub fn particle_count(&self, liquid: &Liquid) -> usize {
         fill::count_for_volume(liquid.volume, self.scale.spacing)

@@ -54,7 +54,7 @@ impl Column {
         let parameters = halved(Parameters {
             spacing,
             support_radius: scene.scale.support_ratio * spacing,
-            ..Parameters::from_scene(scene)
+            ..Parameters::from_scene(&scene.without_sleep())
         });
         let gravity = scene.scale.gravity;
         let particles = self.block(spacing, gravity);

@@ -214,7 +214,9 @@ fn lists_of_what_sleeps_stay_whole() {
         for slot in 300..800 {
             let own: BTreeSet<_> = list.neighbours[slot].iter().copied().collect();
             let near = |other: &usize| {
-                *other != slot && flask(*other) == Some(0) && place(slot).distance(place(*other)) < H
+                *other != slot
+                    && flask(*other) == Some(0)
+                    && place(slot).distance(place(*other)) < H
             };
             let must: BTreeSet<_> = (0..800).filter(near).collect();
             let missed: Vec<_> = must.difference(&own).collect();
@@ -329,7 +331,10 @@ fn still_frames_have_the_same_bits() {
             (solver.snapshot().unwrap(), record.loads().unwrap())
         });
         assert!(state == same);
-        assert_eq!(bytemuck::cast_slice::<_, u32>(&loads), bytemuck::cast_slice::<_, u32>(&others));
+        assert_eq!(
+            bytemuck::cast_slice::<_, u32>(&loads),
+            bytemuck::cast_slice::<_, u32>(&others)
+        );
     };
     let still = (0..SETTLED).filter(|_| {
         both(Pose::IDENTITY, Pose::IDENTITY);

@@ -22,7 +22,7 @@ pub fn costs(
     name: &str,
     args: &BenchArgs,
 ) -> Result<Vec<FeatureRow>, Failure> {
-    let scene = scenes::load(name)?.with_preset(args.preset);
+    let scene = scenes::load(name)?.with_preset(args.preset).without_sleep();
     let whole = settled(plain, &scene)?;
     let dispatches = dispatches(timed, &scene)?;
     scene

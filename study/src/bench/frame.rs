@@ -6,8 +6,9 @@ use vitriol_gpu::Gpu;
 use vitriol_run::passes::{PassRow, Tally, Timing, solve};
 use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
+use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::World;
+use vitriol_sim::world::{StepInput, World};
 
 /// Simulated time before the first measured frame, seconds: by then the filling lattice has settled, and the driver has compiled the last
 /// pipelines.
@@ -56,6 +57,32 @@ pub(super) fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
         solve(gpu, &world)?.wait().other()?;
     }
     Ok(world)
+}
+
+/// A step's share of [`QUEUED`] of a world whose liquid sleeps; `None` where none may.
+pub(super) fn asleep(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Option<Timing>, Failure> {
+    if !scene.solver.sleep {
+        return Ok(None);
+    }
+    let mut world = World::new(gpu, &Library::watching(), scene, 0).other()?;
+    let steps = |world: &mut World, count: u32| -> Result<f64, Failure> {
+        let begin = Instant::now();
+        for _ in 0..count {
+            world
+                .step(&StepInput::of_hands([Hand::ABSENT; 2]))
+                .other()?;
+        }
+        if let Some(ticket) = world.last_step() {
+            ticket.wait().other()?;
+        }
+        Ok(milliseconds(begin) / f64::from(count))
+    };
+    steps(
+        &mut world,
+        (2.0 * WARM_UP / scene.scale.frame_time).ceil() as u32,
+    )?;
+    let times = (0..frames.div_ceil(QUEUED)).map(|_| steps(&mut world, QUEUED));
+    Ok(Some(Timing::of(&times.collect::<Result<Vec<_>, _>>()?)))
 }
 
 pub(super) fn milliseconds(begin: Instant) -> f64 {

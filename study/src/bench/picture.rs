@@ -41,7 +41,7 @@ pub fn rows(
     name: &str,
     args: &BenchArgs,
 ) -> Result<Vec<RenderRow>, Failure> {
-    let scene = scenes::load(name)?.with_preset(args.preset);
+    let scene = scenes::load(name)?.with_preset(args.preset).without_sleep();
     let row = |case: Case| {
         let (views, extent, foveation) = case;
         let (world, camera) = ready(timed, &scene, args, case)?;

@@ -94,6 +94,9 @@ pub struct Row {
     /// A frame's share of several that are queued one behind the other,
     /// measured without timestamps around their passes.
     pub total: Timing,
+    /// The same of steps of a world whose liquid sleeps as far as it does at rest, where the scene lets it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asleep: Option<Timing>,
     /// All passes of a frame by the device's clock, with timestamps around them.
     pub device_total: Timing,
     /// Recording and submitting a frame.
@@ -183,7 +186,8 @@ pub fn describe(bench: &Benchmark) -> String {
             ("frame, queued, untimed", row.total),
             ("of it recording, submitting", row.cpu),
         ];
-        for (name, Timing { median_ms, p95_ms }) in whole {
+        let asleep = row.asleep.map(|time| ("step, queued, liquid asleep", time));
+        for (name, Timing { median_ms, p95_ms }) in whole.into_iter().chain(asleep) {
             let _ = writeln!(text, "{name:<28} {median_ms:>10.3} {p95_ms:>10.3}");
         }
         if let Some(paper) = &row.paper {

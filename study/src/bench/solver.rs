@@ -4,13 +4,13 @@ use vitriol_gpu::Gpu;
 use vitriol_run::{Failure, scenes};
 use vitriol_sim::scene::{Boundary, Scene};
 
-use super::frame::passes;
+use super::frame::{asleep, passes};
 use super::peer::Peer;
 use super::report::{Row, TABLE_2};
 use super::rest::at_rest;
 use crate::cli::BenchArgs;
 
-/// One scene: totals without timestamps around passes, which cost time
+/// One scene, in which no liquid sleeps: totals without timestamps around passes, which cost time
 /// themselves on a software driver, in turn with peers; then each pass with timestamps.
 ///
 /// # Errors
@@ -23,6 +23,8 @@ pub fn row(
     peers: &[Peer],
 ) -> Result<Row, Failure> {
     let scene = scenes::load(name)?.with_preset(args.preset);
+    let asleep = asleep(plain, &scene, args.frames)?;
+    let scene = scene.without_sleep();
     let rest = at_rest(plain, &scene, args.frames, peers)?;
     let (passes, device_total) = passes(timed, &scene, args.frames)?;
     let paper = TABLE_2.iter().find(|(known, _)| *known == name);
@@ -35,6 +37,7 @@ pub fn row(
         density_error_mean: rest.density_error_mean,
         density_error_p99: rest.density_error_p99,
         total: rest.total,
+        asleep,
         device_total,
         cpu: rest.cpu,
         passes,

@@ -220,6 +220,12 @@ impl Work<'_> {
             self.seeds(preset.name(), &scene.with_preset(preset), &track, all)?;
         }
         let balanced = scene.with_preset(Preset::Balanced);
+        self.seeds(
+            "balanced without sleep",
+            &balanced.without_sleep(),
+            &track,
+            (SEEDS[1], whole),
+        )?;
         for feature in ABLATED {
             let (less, gone) = balanced.without(feature);
             let names: Vec<String> = gone.iter().map(|feature| feature.name()).collect();

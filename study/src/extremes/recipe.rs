@@ -203,7 +203,7 @@ impl Recipe {
              origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
              [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{relaxation}\"\nomega = {:?}\n\
-             carry_rate = {:?}\nv_max = {:?}\nboundary = \"{walls}\"\nviscosity = {:?}\n",
+             carry_rate = {:?}\nv_max = {:?}\nboundary = \"{walls}\"\nviscosity = {:?}\nsleep = {}\n",
             self.origin,
             self.support_ratio,
             self.frame_time,
@@ -216,6 +216,8 @@ impl Recipe {
             self.carry_rate,
             self.v_max,
             self.viscosity,
+            // In half of the cases, without a draw of its own: the others stay what they were.
+            self.substeps.is_multiple_of(2),
         );
         let angle = match self.surface() {
             None => String::new(),

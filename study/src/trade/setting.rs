@@ -110,6 +110,8 @@ impl Setting {
             RelaxationKind::Jacobi
         };
         (solver.omega, solver.carry_rate) = (self.omega, self.carry_rate);
+        // What is measured goes on.
+        solver.sleep = false;
         Parameters {
             list_margin: self.list_margin,
             ..Parameters::from_scene(&scene)
