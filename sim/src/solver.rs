@@ -126,7 +126,13 @@ impl Solver {
             (spec.ground.scale, spec.tools),
             (&constants, &buffers, &vessels),
         )?;
-        let start = SolverState::start(spec.particles, &grid, &spec.parameters, spec.flasks.len());
+        let start = SolverState::start(
+            spec.particles,
+            &grid,
+            &spec.parameters,
+            spec.flasks.len(),
+            spec.loads,
+        );
         let solver = Self {
             lengths: snapshot::lengths(&start),
             gpu: gpu.clone(),

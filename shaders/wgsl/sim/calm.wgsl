@@ -1,6 +1,7 @@
 // At a frame's end: what of it keeps flasks' liquid awake (`sim/sleep.wgsl`).
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
+//!include common/chemistry/slots.wgsl
 //!include common/liquid/awake.wgsl
 //!include common/liquid/flask_sleep.wgsl
 //!include common/liquid/step.wgsl
@@ -16,10 +17,14 @@ override FRAME_TIME: f32 = 0.0111;
 @group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> eddies: array<vec2<f32>>;
 @group(0) @binding(5) var<storage, read> list_counts: array<u32>;
+/// As `common/chemistry/live_places.wgsl` has it.
+@group(0) @binding(6) var<storage, read> live: array<u32>;
 
 /// Speed below which a particle is slow, m/s; difference from the room up to which liquid exchanges next to nothing with it, K; variance of
 /// the acid fraction within a particle up to which it is even (`solver/sleep.rs`).
 override SLOW: f32 = 0.03;
+/// Root mean square of the speeds of liquid at rest, over `SLOW`.
+override UNREST: f32 = 0.2;
 override WARM: f32 = 5.0;
 override VARIED: f32 = 1e-6;
 
@@ -39,20 +44,41 @@ fn note_acid(k: u32, acid: f32) {
     if (bits > atomicLoad(&flask_sleeps[k].most_acid)) { atomicMax(&flask_sleeps[k].most_acid, bits); }
 }
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
-    if (i >= awake_count()) { return; }
+/// Keeps all flasks awake while there are bubbles or drops. `sim/sleep.wgsl` asks too, but a state that is taken up has no list of drops.
+fn note_bubbles() {
+    if (live[SLOTS] + live[SLOTS + 1u] == 0u) { return; }
+    for (var k = 0u; k < FLASKS; k++) { keep_awake(k); }
+}
+
+/// Which flask the workgroup's first particle is in, and what is summed up for it: cells are in order, so most others are there too.
+var<workgroup> common_flask: u32;
+var<workgroup> common_unrest: atomic<i32>;
+
+const NONE = 0xffffffffu;
+
+/// A particle's square of the speed less what it may be on average, in sixteenths of the latter: a million particles fit the sum.
+fn unrest_of(square: f32) -> i32 {
+    return i32(round(16.0 * (min(square / (SLOW * SLOW), 1.0) / (UNREST * UNREST) - 1.0)));
+}
+
+/// Notes what a particle does; its flask, or `NONE`.
+fn note(i: u32) -> u32 {
+    if (i >= sorted_count()) { return NONE; }
     let membership = tags[i].x;
-    if (membership == REMOVED) { return; }
+    if (membership == REMOVED) { return NONE; }
+    if (i >= awake_count()) {
+        // Where not all were sorted, it came into liquid that rests after this frame began.
+        if (sorted_count() < COUNT) { keep_awake(membership - 1u); }
+        return NONE;
+    }
     let v = velocity[i].xyz;
     if (membership == NOBODYS) {
         visit(position[i].xyz, v);
-        return;
+        return NONE;
     }
     let k = membership - 1u;
-    // Lists that are longer than a place are made anew with every other list.
-    var lively = !(dot(v, v) <= SLOW * SLOW) || list_counts[i] > LIST_CAPACITY;
+    // Lists that are longer than a place are made anew with every other list. Of those that rest, one came in after this frame began.
+    var lively = !(dot(v, v) <= SLOW * SLOW) || list_counts[i] > LIST_CAPACITY || sleeps(membership);
     if (HEAT) {
         let own = heat[i];
         lively = lively || !(abs(temperature_in(own) - ROOM) <= WARM);
@@ -60,4 +86,26 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if (PHYSICAL) { lively = lively || !(eddies[i].y <= VARIED); }
     if (lively) { keep_awake(k); }
+    return k;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let i = id.x;
+    if (BUBBLES) {
+        if (i == 0u) { note_bubbles(); }
+    }
+    let k = note(i);
+    if (local == 0u) {
+        common_flask = k;
+        atomicStore(&common_unrest, 0);
+    }
+    workgroupBarrier();
+    if (k != NONE) {
+        let v = velocity[i].xyz;
+        let unrest = unrest_of(dot(v, v));
+        if (k == common_flask) { atomicAdd(&common_unrest, unrest); } else { atomicAdd(&flask_sleeps[k].unrest, unrest); }
+    }
+    workgroupBarrier();
+    if (local == 0u && k != NONE) { atomicAdd(&flask_sleeps[k].unrest, atomicLoad(&common_unrest)); }
 }

@@ -29,6 +29,8 @@ struct Handle {
     velocity_b: vec3<f32>,
     /// Drag coefficient over the diameter.
     drag: f32,
+    /// Whether it moves.
+    stirs: u32,
 }
 
 var<immediate> handle: Handle;
@@ -83,8 +85,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if (place < 0.0 || place > long || aside >= handle.radius + SPACING) { return; }
     // Liquid that rests wakes up where the rod moves in it.
-    let is_moving = any(handle.velocity_a != vec3<f32>(0.0)) || any(handle.velocity_b != vec3<f32>(0.0));
-    if (SLEEP && is_moving && membership != NOBODYS) { keep_awake(membership - 1u); }
+    if (SLEEP && handle.stirs != 0u && membership != NOBODYS) { keep_awake(membership - 1u); }
     let v = velocity[i];
     let rods = mix(handle.velocity_a, handle.velocity_b, place / long);
     let relative = rods - v.xyz;

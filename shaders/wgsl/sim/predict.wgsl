@@ -25,6 +25,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
     if (sleeps(tags[i].x)) {
         trial[i] = pack_trial(position[i].xyz, volume);
+        // Taken out since the last rebuild, it is still among those that are awake.
+        if (tags[i].x == REMOVED) { ask_for_list(sorted_count()); }
         return;
     }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }

@@ -35,11 +35,20 @@ fn moves(k: u32) -> bool {
     return has_moved(poses[k].position.xyz, poses[k].orientation, poses[step.after + k]);
 }
 
+/// Bit of `lively` of a flask that moves, or has drifted; `keep_awake` sets the lowest.
+const MOVED = 2u;
+
+/// Notes whether flask k moves or has drifted.
+fn note_motion(k: u32) {
+    let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, poses[step.after + k]);
+    if (drifted || moves(k)) { atomicOr(&flask_sleeps[k].lively, MOVED); }
+}
+
 /// Whether a flask that moves is near flask k.
 fn is_visited(k: u32) -> bool {
     let own = sphere_about(k, poses[k]);
     for (var other = 0u; other < FLASKS; other++) {
-        if (other == k || !moves(other)) { continue; }
+        if (other == k || (atomicLoad(&flask_sleeps[other].lively) & MOVED) == 0u) { continue; }
         let about = sphere_about(other, poses[step.after + other]);
         if (distance(own.xyz, about.xyz) < own.w + about.w + CLEARANCE) { return true; }
     }
@@ -58,12 +67,13 @@ fn main() {
     var stirred = false;
     if (BUBBLES) { stirred = live[SLOTS] + live[SLOTS + 1u] > 0u; }
     var changed = false;
+    for (var k = 0u; k < FLASKS; k++) { note_motion(k); }
     for (var k = 0u; k < FLASKS; k++) {
         let pose = poses[step.after + k];
-        let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, pose);
-        let lively = atomicExchange(&flask_sleeps[k].lively, 0u) != 0u;
+        let unrest = atomicExchange(&flask_sleeps[k].unrest, 0);
+        let lively = unrest > 0 || atomicLoad(&flask_sleeps[k].lively) != 0u;
         let even = is_even(k);
-        if (drifted || lively || !even || stirred || moves(k) || is_visited(k)) {
+        if (lively || !even || stirred || is_visited(k)) {
             flask_sleeps[k].calm = 0u;
             flask_sleeps[k].position = pose.position.xyz;
             flask_sleeps[k].orientation = pose.orientation;
@@ -74,7 +84,8 @@ fn main() {
         changed = changed || sleeps != sleep[2u + k];
         sleep[2u + k] = sleeps;
     }
-    sleep[1] = select(0u, 1u, changed);
+    for (var k = 0u; k < FLASKS; k++) { atomicStore(&flask_sleeps[k].lively, 0u); }
+    sleep[1] = select(sleep[0], COUNT, changed);
     if (changed) {
         ask_for_list(COUNT);
         // Nothing is known of the eddies of what woke up.

@@ -177,14 +177,14 @@ buffers! {
         list_args: 12,
         /// Particles of cells during a rebuild, where the list keeps those of liquid at rest.
         cell_items: s.own_items,
-        /// Number of particles that do not rest, whether that changed, and by flask whether its liquid rests.
+        /// Number of particles that do not rest, of those that rebuilds sort, and by flask whether its liquid rests.
         sleep: s.sleep,
         /// Sizes of the dispatches over particles that do not sleep.
         awake_args: s.awake_args,
         /// What was noted of each flask to tell.
         flask_sleeps: s.flask_sleeps,
+        /// The table of the solution, and that of its lamellae behind it.
         solution: words_of(&s.solution),
-        lamellae: words_of(&s.lamellae),
         /// Records of bubbles before and after a step.
         bubbles: 2 * BUBBLE_WORDS as u64 * s.bubbles,
         /// By bubble's place, the particle at which a bubble is to be born, plus one; behind them the size of the dispatch that lists places.
@@ -263,7 +263,6 @@ struct Sizes {
     substeps: u32,
     loads: u64,
     solution: Vec<u8>,
-    lamellae: Vec<u8>,
     dew_rows: Vec<u8>,
 }
 
@@ -295,8 +294,8 @@ impl Sizes {
         let sticks = parameters.sticks();
         let steams = with_steam(parameters).is_some();
         let dew = dew_places(parameters, spec.flasks.len());
-        let solution = physical.then(|| SolutionTable::new().rows());
-        let lamellae = feed.map(|feed| Lamellae::of(feed).rows());
+        let mut solution = bytes_of(physical.then(|| SolutionTable::new().rows()));
+        solution.extend(bytes_of(feed.map(|feed| Lamellae::of(feed).rows())));
         let [sleep, awake_args, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
         let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
         Self {
@@ -334,8 +333,7 @@ impl Sizes {
             flasks,
             substeps: parameters.substeps,
             loads: where_asked(spec.loads, 12 * groups * flasks),
-            solution: bytes_of(solution),
-            lamellae: bytes_of(lamellae),
+            solution,
             dew_rows: bytes_of(dew_rows),
         }
     }
@@ -357,7 +355,6 @@ impl Buffers {
         let sizes = Sizes::new(spec, count, grid);
         let buffers = Self::sized(gpu, &sizes)?;
         rec.upload(&buffers.solution, &sizes.solution)?;
-        rec.upload(&buffers.lamellae, &sizes.lamellae)?;
         rec.upload(&buffers.dew_rows, &sizes.dew_rows)?;
         Ok(buffers)
     }

@@ -2,6 +2,7 @@
 
 use super::buffers::LOAD_GROUP;
 use super::pipelines::SolverPass;
+use super::sleep;
 use super::vessels::flask_pose;
 use super::{Solver, SolverError};
 use crate::chemistry::Chemistry;
@@ -9,7 +10,7 @@ use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
 use std::sync::atomic::Ordering;
 use vitriol_gpu::{Pass, Readback, Recorder};
-use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
+use vitriol_shaders::layout::{FlaskPose, FlaskSleep, LiquidLoad, Step};
 
 /// Results of a frame that can be read once the device has finished it.
 pub struct FrameRecord {
@@ -17,7 +18,7 @@ pub struct FrameRecord {
     flasks: usize,
     /// Counted by the solver.
     pub(super) frame: u64,
-    sleep: Option<Readback>,
+    sleep: Option<[Readback; 2]>,
 }
 
 impl FrameRecord {
@@ -43,15 +44,20 @@ impl FrameRecord {
         Ok(sums)
     }
 
-    /// Number of particles that did not sleep in the frame; `None` where none may.
-    ///
-    /// # Errors
-    /// [`SolverError::Gpu`] before the frame is done.
-    pub fn awake(&self) -> Result<Option<u32>, SolverError> {
-        let Some(readback) = &self.sleep else {
+    /// Where flasks stand, if all liquid slept in the frame and goes on to do so while nothing moves.
+    pub(super) fn sleeping_at(&self) -> Result<Option<Vec<Pose>>, SolverError> {
+        let Some([sleep, flasks]) = &self.sleep else {
             return Ok(None);
         };
-        Ok(readback.get::<u32>()?.first().copied())
+        let words = sleep.get::<u32>()?;
+        let words = words.get(..sleep::HEAD + self.flasks);
+        if !words.is_some_and(sleep::is_settled) {
+            return Ok(None);
+        }
+        let flasks = flasks.get::<FlaskSleep>()?;
+        Ok(Some(
+            flasks.iter().take(self.flasks).map(sleep::pose).collect(),
+        ))
     }
 }
 
@@ -76,20 +82,25 @@ impl Solver {
             });
         }
         self.listed.store(true, Ordering::Relaxed);
-        let (frame, is_still) = self.still.count(before, after);
+        let near = |a: &[Pose], b: &[Pose]| self.near(a, b);
+        let (frame, is_still) = self.still.count([before, after], near);
+        self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
         if is_still {
             self.record_still(rec)?;
         } else {
-            self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
             self.solve(rec)?; // the others
         }
         let loads = self.has_loads().then(|| rec.read_back(&self.buffers.loads));
-        let sleep = (self.pipelines.sleep.is_some()).then(|| rec.read_back(&self.buffers.sleep));
+        let told = [&self.buffers.sleep, &self.buffers.flask_sleeps];
+        let sleep = match self.pipelines.sleep {
+            Some(_) => Some([rec.read_back(told[0])?, rec.read_back(told[1])?]),
+            None => None,
+        };
         Ok(FrameRecord {
             loads: loads.transpose()?,
             flasks: self.flasks,
             frame,
-            sleep: sleep.transpose()?,
+            sleep,
         })
     }
 
@@ -97,11 +108,7 @@ impl Solver {
     /// is executed again.
     pub(super) fn record_passes(&self, rec: &mut Recorder) -> Result<(), SolverError> {
         let (p, substeps) = (&self.pipelines, self.parameters.substeps);
-        if let Some([sleep, _]) = &p.sleep {
-            self.pass(rec, sleep)
-                .constants(&self.step(substeps - 1))
-                .workgroups([1, 1, 1])?;
-        }
+        self.record_sleep(rec)?;
         // Lines 6 to 8, and 16 of the first substep; the forces of each end with that of the next.
         self.pass(rec, &p.predict)
             .constants(&self.step(0))
@@ -255,7 +262,7 @@ impl Solver {
     }
 
     /// Constants of substep `n`.
-    fn step(&self, n: u32) -> Step {
+    pub(super) fn step(&self, n: u32) -> Step {
         let flasks = self.flasks as u32;
         let step = Step {
             time: self.parameters.substep_time() as f32,

@@ -9,6 +9,9 @@ use vitriol_shaders::layout::Handle;
 /// 0.2 m/s in water has 1400 (F. M. White, Fluid Mechanics, drag of two-dimensional bodies: 1.2).
 pub const ROD_DRAG: f32 = 1.2;
 
+/// Speed from which a rod stirs liquid that sleeps, m/s. Chosen: one that lies in a vessel trembles less.
+const STIRS: f32 = 1e-3;
+
 /// A tool's cylinder in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
@@ -34,7 +37,11 @@ impl Solver {
         if self.count == 0 {
             return Ok(());
         }
-        self.still.disturb();
+        // A cloth takes up what is nobody's, which never sleeps.
+        let stirs = !touch.wipes && touch.velocities.iter().any(|v| v.length() > STIRS);
+        if stirs {
+            self.still.disturb();
+        }
         let [a, b] = touch.ends.map(|it| it.to_array());
         let [velocity_a, velocity_b] = touch.velocities.map(|it| it.to_array());
         let handle = Handle {
@@ -46,6 +53,8 @@ impl Solver {
             time: time as f32,
             velocity_b,
             drag: ROD_DRAG,
+            stirs: stirs.into(),
+            ..Handle::default()
         };
         self.pass(rec, pass)
             .constants(&handle)

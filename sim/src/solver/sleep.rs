@@ -6,11 +6,14 @@ use super::transfer::read;
 use super::wall_heat;
 use super::{Solver, SolverError, lanes};
 use crate::parameters::Parameters;
+use crate::pose::Pose;
+use glam::Quat;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::Pass;
+use vitriol_gpu::{Pass, Recorder};
+use vitriol_shaders::layout::FlaskSleep;
 
 /// Words of `sleep` before those of flasks: the number of particles that do not rest is the first.
-const HEAD: usize = 2;
+pub(super) const HEAD: usize = 2;
 
 /// Words of a flask in `flask_sleeps`.
 const FLASK_WORDS: usize = 12;
@@ -25,6 +28,9 @@ const CALM_TIME: f64 = 0.2;
 /// up to 0.026 m/s and this makes 0.030.
 const RISE: f64 = 0.016;
 
+/// Root mean square of an even liquid's speeds, over that of a slow particle. Chosen: a slosh that swings in 0.3 s is up to 0.3 mm high then.
+const UNREST: f64 = 0.2;
+
 /// Distance that liquid and moving flasks keep, in spacings. Chosen: 35 mm at `fast`.
 const CLEARANCE: f64 = 12.0;
 
@@ -33,8 +39,8 @@ const DRIFT: f64 = 0.04;
 const TURN: f64 = 1e-3;
 
 /// Difference from the room up to which liquid counts as at its temperature, K. Still air and glass take 12 W/(m² K): a beaker of
-/// 160 mL loses 1.2 W, and cools by 0.2 K in a minute.
-const WARM: f64 = 5.0;
+/// 160 mL loses 0.25 W, and would cool by 0.04 K in a minute.
+const WARM: f64 = 1.0;
 
 /// Difference of acid fractions up to which liquid is even. At 98 % so much water sets 1 J/g free, 0.7 K.
 const EVEN: f64 = 1e-3;
@@ -42,15 +48,17 @@ const EVEN: f64 = 1e-3;
 /// The part of a state that tells which liquid rests; empty where none may.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SleepState {
-    /// Number of particles that do not rest, whether that changed in the last frame, and whether each flask's liquid rests.
+    /// Number of particles that do not rest, number of those that the last frame sorted, and whether each flask's liquid rests.
     pub(super) sleep: Vec<u32>,
     /// The words of `FlaskSleep` of each flask.
     pub(super) flasks: Vec<[u32; FLASK_WORDS]>,
+    /// `wall_push` by slot, where there are loads: that of liquid at rest stays what it was.
+    pub(super) pushes: Vec<[f32; 4]>,
 }
 
 impl SleepState {
     /// All liquid is awake.
-    pub(super) fn start(is_on: bool, count: usize, flasks: usize) -> Self {
+    pub(super) fn start(is_on: bool, loads: bool, count: usize, flasks: usize) -> Self {
         if !is_on {
             return Self::default();
         }
@@ -59,6 +67,7 @@ impl SleepState {
         Self {
             sleep,
             flasks: vec![[0; FLASK_WORDS]; flasks],
+            pushes: vec![[0.0; 4]; if loads { count } else { 0 }],
         }
     }
 }
@@ -66,6 +75,26 @@ impl SleepState {
 /// Whether liquid of a scene with so many flasks may rest. Not over a plate, which heats on.
 pub(super) fn is_on(p: &Parameters, flasks: usize) -> bool {
     p.sleep && flasks > 0 && p.heaters.iter().all(|&watts| watts == 0.0)
+}
+
+/// Whether the words of `sleep` stay what they are while nothing moves: no particle is awake, none was sorted, and each flask's liquid rests,
+/// that of empty ones too.
+pub(super) fn is_settled(words: &[u32]) -> bool {
+    matches!(words, [0, 0, flasks @ ..] if flasks.iter().all(|&rests| rests == 1))
+}
+
+/// Where a flask was when the device last counted it as moved.
+pub(super) fn pose(noted: &FlaskSleep) -> Pose {
+    let orientation = Quat::from_array(noted.orientation);
+    Pose {
+        position: noted.position.into(),
+        orientation,
+    }
+}
+
+/// How far a flask may drift (m) and turn, as a length of quaternions, while it counts as unmoved.
+pub(super) fn unmoved(p: &Parameters) -> [f64; 2] {
+    [DRIFT * p.spacing, TURN]
 }
 
 /// Words of `sleep`, `awake_args` and `flask_sleeps`.
@@ -84,15 +113,17 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
         return Vec::new();
     }
     let d = p.spacing;
+    let [drift, turn] = unmoved(p);
     let gravity = glam::DVec3::from(p.gravity).length();
     let room = wall_heat::losses(p.chemistry.as_ref()).map_or(ROOM_TEMPERATURE, |l| l.ambient);
     vec![
         ("SLEEP", 1.0),
         ("CALM_FRAMES", (CALM_TIME / p.frame_time).ceil()),
         ("SLOW", (2.0 * gravity * RISE * d).sqrt()),
+        ("UNREST", UNREST),
         ("CLEARANCE", CLEARANCE * d),
-        ("STILL", DRIFT * d),
-        ("UPRIGHT", TURN),
+        ("STILL", drift),
+        ("UPRIGHT", turn),
         ("ROOM", room),
         ("WARM", WARM),
         ("EVEN", EVEN),
@@ -101,9 +132,19 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
 }
 
 impl Solver {
+    /// Records which liquid sleeps from now on.
+    pub(super) fn record_sleep(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        if let Some([sleep, _]) = &self.pipelines.sleep {
+            self.pass(rec, sleep)
+                .constants(&self.step(self.parameters.substeps - 1))
+                .workgroups([1, 1, 1])?;
+        }
+        Ok(())
+    }
+
     /// Ends a pass in which all lanes of each particle that does not sleep take part.
     pub(super) fn over_awake(&self, pass: Pass<'_>) -> Result<(), SolverError> {
-        if !is_on(&self.parameters, self.flasks) || std::env::var_os("VITRIOL_DIRECT").is_some() {
+        if !is_on(&self.parameters, self.flasks) {
             return Ok(pass.invocations(self.count * self.lanes)?);
         }
         let in_64 = pass.workgroup_size() == 64;

@@ -59,7 +59,7 @@ macro_rules! array {
 }
 
 /// All arrays of a state but the neighbour list's; the hash has them in this order.
-const ARRAYS: [Array; 29] = [
+const ARRAYS: [Array; 30] = [
     array!(position, positions, "positions", ByIdentity),
     array!(velocity, velocities, "velocities", ByIdentity),
     array!(tags, tags, "tags", ByIdentity),
@@ -89,6 +89,7 @@ const ARRAYS: [Array; 29] = [
     array!(counters, counters, "counters", No),
     array!(sleep, sleep.sleep, "liquid at rest", No),
     array!(flask_sleeps, sleep.flasks, "flasks at rest", No),
+    array!(wall_push, sleep.pushes, "pushes of walls", No),
 ];
 
 /// Elements of whatever type.

@@ -69,6 +69,7 @@ impl SolverState {
         grid: &Grid,
         parameters: &Parameters,
         flasks: usize,
+        loads: bool,
     ) -> Self {
         let chemistry = parameters.chemistry.as_ref();
         let ambient = wall_heat::losses(chemistry).map_or(0.0, |losses| losses.ambient);
@@ -99,7 +100,7 @@ impl SolverState {
             list_counts: vec![0; n],
             list: vec![0; grid.places(n as u32) as usize],
             counters: vec![0; size_of::<Counters>() / 4],
-            sleep: SleepState::start(sleep::is_on(parameters, flasks), n, flasks),
+            sleep: SleepState::start(sleep::is_on(parameters, flasks), loads, n, flasks),
         };
         match &parameters.chemistry {
             None => {}

@@ -1,10 +1,15 @@
 //! Frames in which all liquid sleeps: nothing over particles is recorded, and the bits are the same.
 
 use super::frame::FrameRecord;
-use super::{Solver, SolverError};
+use super::{Solver, SolverError, sleep};
 use crate::pose::Pose;
+use glam::Vec4;
+use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use vitriol_gpu::Recorder;
+
+/// Frames for which poses are kept until the device has told of them.
+const KEPT: usize = 8;
 
 /// What was recorded since something could last wake liquid. Only flasks that move, what is done to their contents, and liquid that is awake
 /// can; of the last the device tells some frames later.
@@ -15,11 +20,12 @@ pub(super) struct Still(Mutex<Since>);
 struct Since {
     /// Frames recorded.
     frames: u64,
-    /// The first of those at whose end all flasks stood where they stand now.
+    /// The first frame that nothing but motion can have disturbed.
     first: u64,
-    poses: Vec<Pose>,
-    /// Whether all liquid slept in one of these.
-    asleep: bool,
+    /// Frames of which the device has not told yet, and where flasks stood at their end.
+    after: VecDeque<(u64, Vec<Pose>)>,
+    /// Where flasks stand while all liquid sleeps, as the device has noted it.
+    stands: Option<Vec<Pose>>,
 }
 
 impl Still {
@@ -27,29 +33,42 @@ impl Still {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Something may wake liquid in the next frame.
+    /// Something else than motion may wake liquid in the next frame.
     pub(super) fn disturb(&self) {
         let mut since = self.lock();
-        since.poses.clear();
-        since.asleep = false;
+        since.first = since.frames + 1;
+        since.stands = None;
     }
 
-    /// Counts a frame; its number, and whether all liquid sleeps in it.
-    pub(super) fn count(&self, before: &[Pose], after: &[Pose]) -> (u64, bool) {
+    /// Counts a frame; its number, and whether all liquid sleeps in it. `near` tells whether flasks at two places count as unmoved.
+    pub(super) fn count(
+        &self,
+        [before, after]: [&[Pose]; 2],
+        near: impl Fn(&[Pose], &[Pose]) -> bool,
+    ) -> (u64, bool) {
         let mut since = self.lock();
         since.frames += 1;
-        if before != after || since.poses != after {
-            since.first = since.frames + 1;
-            since.poses = after.to_vec();
-            since.asleep = false;
+        let number = since.frames;
+        let stands = since.stands.take();
+        since.stands = stands.filter(|stand| near(stand, before) && near(stand, after));
+        if since.after.len() == KEPT {
+            since.after.pop_front();
         }
-        (since.frames, since.asleep)
+        since.after.push_back((number, after.to_vec()));
+        (number, since.stands.is_some())
     }
 
-    /// All liquid slept in that frame.
-    fn slept(&self, frame: u64) {
+    /// All liquid slept in that frame, with flasks that count as standing at `stands`.
+    fn slept(&self, frame: u64, stands: Vec<Pose>, near: impl Fn(&[Pose], &[Pose]) -> bool) {
         let mut since = self.lock();
-        since.asleep |= !since.poses.is_empty() && frame >= since.first;
+        while (since.after.front()).is_some_and(|&(number, _)| number < frame) {
+            since.after.pop_front();
+        }
+        let is_known = (since.after.front()).is_some_and(|&(number, _)| number == frame);
+        let stood = since.after.iter().all(|(_, after)| near(&stands, after));
+        if frame >= since.first && is_known && stood {
+            since.stands = Some(stands);
+        }
     }
 }
 
@@ -59,19 +78,35 @@ impl Solver {
     /// # Errors
     /// [`SolverError::Gpu`] before the frame is done.
     pub fn note(&self, record: &FrameRecord) -> Result<(), SolverError> {
-        if record.awake()? == Some(0) {
-            self.still.slept(record.frame);
+        if let Some(stands) = record.sleeping_at()? {
+            let near = |a: &[Pose], b: &[Pose]| self.near(a, b);
+            self.still.slept(record.frame, stands, near);
         }
         Ok(())
     }
 
-    /// Whether the next frame is recorded without liquid if no flask moves.
-    pub fn is_still(&self) -> bool {
-        self.still.lock().asleep
+    /// Whether the device counts flasks at two places as unmoved, whatever it rounds: half of what it allows.
+    pub(super) fn near(&self, a: &[Pose], b: &[Pose]) -> bool {
+        let [drift, turn] = sleep::unmoved(&self.parameters).map(|most| 0.5 * most as f32);
+        let close = |(a, b): (&Pose, &Pose)| {
+            let [p, q] = [a, b].map(|pose| Vec4::from(pose.orientation));
+            a.position.distance(b.position) <= drift && p.distance(q).min(p.distance(-q)) <= turn
+        };
+        a.len() == b.len() && a.iter().zip(b).all(close)
     }
 
-    /// Records what goes on over liquid that sleeps.
+    /// Whether the next frame is recorded without liquid if no flask moves.
+    pub fn is_still(&self) -> bool {
+        self.still.lock().stands.is_some()
+    }
+
+    /// Records what goes on over liquid that sleeps, of which the first pass notes where flasks stand.
     pub(super) fn record_still(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        self.record_sleep(rec)?;
+        // No bubble is there, but the flow of gas still fades.
+        for n in 0..self.parameters.substeps {
+            self.bubble(rec, &self.step(n), n)?;
+        }
         self.record_surroundings(rec)?;
         self.load(rec)
     }
@@ -82,36 +117,48 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
+    fn at(x: f32) -> Vec<Pose> {
+        vec![Pose::from_position(Vec3::X * x)]
+    }
+
+    fn near(a: &[Pose], b: &[Pose]) -> bool {
+        a[0].position.distance(b[0].position) < 0.01
+    }
+
     /// A frame's number and whether it is still, with a flask that goes from one place to the other.
     fn step(still: &Still, from: f32, to: f32) -> (u64, bool) {
-        let [before, after] = [from, to].map(|x| [Pose::from_position(Vec3::X * x)]);
-        still.count(&before, &after)
+        still.count([&at(from), &at(to)], near)
     }
 
     #[test]
     fn a_frame_is_still_if_nothing_moved_since_all_slept() {
         let still = Still::default();
-        still.slept(0);
+        still.slept(0, at(0.0), near);
         assert_eq!(step(&still, 0.0, 0.0), (1, false));
-        // That frame began the rest: what slept in it may have been woken at its end.
-        still.slept(1);
-        assert_eq!(step(&still, 0.0, 0.0), (2, false));
-        still.slept(2);
-        assert_eq!(step(&still, 0.0, 0.0), (3, true));
-        assert_eq!(step(&still, 0.0, 0.1), (4, false));
+        assert_eq!(step(&still, 0.0, 0.002), (2, false));
+        still.slept(1, at(0.0), near);
+        assert_eq!(step(&still, 0.002, 0.0), (3, true));
+        // A drift, each frame of which is as nothing.
+        assert_eq!(step(&still, 0.0, 0.007), (4, true));
+        assert_eq!(step(&still, 0.007, 0.014), (5, false));
         // News of frames before the motion.
-        still.slept(3);
-        still.slept(4);
-        assert_eq!(step(&still, 0.1, 0.1), (5, false));
-        still.slept(5);
-        assert_eq!(step(&still, 0.1, 0.1), (6, true));
+        still.slept(3, at(0.0), near);
+        assert_eq!(step(&still, 0.014, 0.014), (6, false));
+        still.slept(5, at(0.014), near);
+        assert_eq!(step(&still, 0.014, 0.014), (7, true));
         still.disturb();
-        still.slept(6);
-        assert_eq!(step(&still, 0.1, 0.1), (7, false));
-        still.slept(6);
-        assert_eq!(step(&still, 0.1, 0.1), (8, false));
+        assert_eq!(step(&still, 0.014, 0.014), (8, false));
+        still.slept(7, at(0.014), near);
+        assert_eq!(step(&still, 0.014, 0.014), (9, false));
+        still.slept(8, at(0.014), near);
+        assert_eq!(step(&still, 0.014, 0.014), (10, true));
         // A flask that was put elsewhere between frames.
-        still.slept(8);
-        assert_eq!(step(&still, 0.2, 0.2), (9, false));
+        assert_eq!(step(&still, 0.2, 0.2), (11, false));
+        // News that come too late to know what happened since.
+        for _ in 0..2 * KEPT {
+            step(&still, 0.2, 0.2);
+        }
+        still.slept(12, at(0.2), near);
+        assert!(!step(&still, 0.2, 0.2).1);
     }
 }

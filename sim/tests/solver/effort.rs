@@ -27,7 +27,7 @@ fn scene() -> Scene {
 }
 
 fn world(gpu: &Gpu, effort: [u32; 2]) -> World {
-    let scene = scene().with_effort(effort);
+    let scene = scene().with_effort(effort).without_sleep();
     World::new(gpu, &Library::watching(), &scene, 1).unwrap()
 }
 

@@ -256,8 +256,8 @@ fn a_restored_sleep_goes_on_with_the_same_bits() {
     assert!(on == anew);
 }
 
-/// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, and its density within the
-/// error of these substeps (0.4 %).
+/// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, its surface's tilt within a fiftieth,
+/// and its density within the error of these substeps (0.4 %).
 #[test]
 fn liquid_that_slept_stands_as_if_it_had_not() {
     let gpu = gpu::device();
@@ -272,13 +272,19 @@ fn liquid_that_slept_stands_as_if_it_had_not() {
         frames(&gpu, &solver, &[moved], 30);
         let found = particles(&solver.snapshot().unwrap());
         let heights: f64 = found.iter().map(|it| it.position.y).sum();
+        // A tilted surface has a moment, and the same mean.
+        let tilt: DVec3 = found.iter().map(|it| it.position.y * it.position).sum();
         let densities = densities(&gpu, &solver);
         let error: f64 = densities.iter().map(|it| (it - 1.0).max(0.0)).sum();
-        [heights, error].map(|sum| sum / found.len() as f64)
+        [heights, error, tilt.x / 0.013, tilt.z / 0.013].map(|sum| sum / found.len() as f64)
     };
     let [slept, not] = [true, false].map(stands);
     assert!((slept[0] - not[0]).abs() < 0.01 * D, "{slept:?} {not:?}");
     assert!((slept[1] - not[1]).abs() < 0.004, "{slept:?} {not:?}");
+    for axis in 2..4 {
+        let tilt = (slept[axis] - not[axis]).abs();
+        assert!(tilt < 0.02 * D, "{slept:?} {not:?}");
+    }
 }
 
 /// Liquid that is warm, or not even, goes on: it would cool, or mix.
@@ -295,6 +301,7 @@ fn warm_and_uneven_liquid_stays_awake() {
     };
     assert!(asleep(&|_| (20.0, 0.98)));
     assert!(!asleep(&|_| (30.0, 0.98)), "10 K above the room");
+    assert!(!asleep(&|_| (21.5, 0.98)), "1.5 K above the room");
     // Water over acid, two fractions that lie 1 % apart.
     let split = |height: f64| (20.0, if height > 0.5 { 0.97 } else { 0.98 });
     assert!(!asleep(&split), "two layers");
@@ -350,4 +357,95 @@ fn still_frames_have_the_same_bits() {
         assert_eq!(noting.awake().unwrap(), 500);
         pose = next;
     }
+}
+
+/// What a cloth takes up leaves the liquid that is awake: each particle is there once, and the others go on.
+#[test]
+fn what_is_wiped_up_takes_none_along() {
+    let gpu = gpu::device();
+    for lanes in lanes(&gpu) {
+        let x = |n: u32| 0.2 + 0.1 * f64::from(n);
+        let mut particles = still();
+        particles.extend((0..40).map(|n| drop_at(DVec3::new(x(n), 1.0, 0.0), DVec3::ZERO)));
+        let mut setup = glass(particles, lanes);
+        setup.tools = true;
+        let solver = setup.solver(&gpu);
+        let poses = [Pose::IDENTITY];
+        frames(&gpu, &solver, &poses, 3);
+        let cloth = Touch {
+            ends: [0.5, 1.5].map(|y| Vec3::new(x(20) as f32, y, 0.0)),
+            velocities: [Vec3::ZERO; 2],
+            radius: 0.03,
+            wipes: true,
+        };
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        solver.handle(&mut rec, &cloth, FRAME).unwrap();
+        solver.record(&mut rec, &poses, &poses).unwrap();
+        gpu.submit(rec).unwrap().wait().unwrap();
+        frames(&gpu, &solver, &poses, 10);
+        let state = solver.snapshot().unwrap();
+        let mut found: Vec<_> = state.tags.iter().map(|tag| tag[1]).collect();
+        found.sort_unstable();
+        assert!(found.into_iter().eq(0..540), "{lanes} lanes");
+        let gone = (0..540).filter(|&slot| !state.is_present(slot));
+        assert_eq!(
+            gone.map(|slot| state.tags[slot][1]).collect::<Vec<_>>(),
+            [520]
+        );
+        // 14 frames of its fall are 0.12 m.
+        let falls = |slot: &usize| state.tags[*slot][0] == 0 && state.positions[*slot][1] < 0.92;
+        assert_eq!((0..540).filter(falls).count(), 39, "{lanes} lanes");
+    }
+}
+
+/// Loads are as heavy on a solver that takes up a state in which liquid sleeps.
+#[test]
+fn a_restored_sleep_has_the_same_loads() {
+    let gpu = gpu::device();
+    let mut setup = glass(still(), 1);
+    setup.loads = true;
+    let solver = setup.solver(&gpu);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+    let fresh = setup.solver(&gpu);
+    fresh.restore(&solver.snapshot().unwrap()).unwrap();
+    let loads = |solver: &Solver| frame(&gpu, solver, &[Pose::IDENTITY], &[Pose::IDENTITY]);
+    let [on, anew] = [&solver, &fresh].map(loads);
+    assert!(on[0].impulse[1] < 0.0);
+    assert_eq!(
+        on[0].impulse.map(f32::to_bits),
+        anew[0].impulse.map(f32::to_bits)
+    );
+}
+
+/// Liquid that sloshes is not caught at the turn of its swing: its particles are slow then, and only for a moment.
+#[test]
+fn a_slosh_is_not_caught_at_its_turn() {
+    let gpu = gpu::device();
+    let mut setup = glass(still(), 1);
+    setup.parameters.viscosity = 0.005;
+    let solver = setup.solver(&gpu);
+    let mut pose = Pose::IDENTITY;
+    for _ in 0..4 {
+        let next = at(pose.position.x + 0.002, 0.0, 0.0);
+        frame(&gpu, &solver, &[pose], &[next]);
+        pose = next;
+    }
+    let tilt = |solver: &Solver| {
+        let found = particles(&solver.snapshot().unwrap());
+        let x = f64::from(pose.position.x);
+        let sum: f64 = found
+            .iter()
+            .map(|it| it.position.y * (it.position.x - x))
+            .sum();
+        // Of a surface y = a x over a round glass of radius r, ⟨y x⟩ is a r²/8.
+        8.0 * sum / found.len() as f64 / 0.013_f64.powi(2)
+    };
+    let asleep = (0..400).find(|_| {
+        frames(&gpu, &solver, &[pose], 1);
+        solver.awake().unwrap() == 0
+    });
+    assert!(asleep.is_some(), "never sleeps");
+    // A quarter of a spacing at the wall.
+    let raised = 0.013 * tilt(&solver);
+    assert!(raised.abs() < 0.25 * D, "{raised} m");
 }

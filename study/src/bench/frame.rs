@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::report::Asleep;
 use vitriol_gpu::Gpu;
 use vitriol_run::passes::{PassRow, Tally, Timing, solve};
 use vitriol_run::{Blame, Failure};
@@ -59,8 +60,8 @@ pub(super) fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
     Ok(world)
 }
 
-/// A step's share of [`QUEUED`] of a world whose liquid sleeps; `None` where none may.
-pub(super) fn asleep(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Option<Timing>, Failure> {
+/// Steps of a world whose liquid has come to rest and sleeps; `None` where none may.
+pub(super) fn asleep(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Option<Asleep>, Failure> {
     if !scene.solver.sleep {
         return Ok(None);
     }
@@ -82,7 +83,11 @@ pub(super) fn asleep(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Option<Tim
         (2.0 * WARM_UP / scene.scale.frame_time).ceil() as u32,
     )?;
     let times = (0..frames.div_ceil(QUEUED)).map(|_| steps(&mut world, QUEUED));
-    Ok(Some(Timing::of(&times.collect::<Result<Vec<_>, _>>()?)))
+    let times: Vec<f64> = times.collect::<Result<_, Failure>>()?;
+    Ok(Some(Asleep {
+        step: Timing::of(&times),
+        awake: world.solver().awake().other()?,
+    }))
 }
 
 pub(super) fn milliseconds(begin: Instant) -> f64 {

@@ -94,9 +94,9 @@ pub struct Row {
     /// A frame's share of several that are queued one behind the other,
     /// measured without timestamps around their passes.
     pub total: Timing,
-    /// The same of steps of a world whose liquid sleeps as far as it does at rest, where the scene lets it.
+    /// Where the scene lets liquid sleep, steps in which it does.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub asleep: Option<Timing>,
+    pub asleep: Option<Asleep>,
     /// All passes of a frame by the device's clock, with timestamps around them.
     pub device_total: Timing,
     /// Recording and submitting a frame.
@@ -108,6 +108,15 @@ pub struct Row {
     /// Other programs that ran in turn with it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peers: Vec<PeerRow>,
+}
+
+/// Steps of a world whose liquid has come to rest and sleeps.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Asleep {
+    /// A step's share of several that are queued one behind the other.
+    pub step: Timing,
+    /// Particles that do not sleep even so.
+    pub awake: u32,
 }
 
 /// A column of the paper's Table 2 (its card, 3 substeps × 2 iterations),
@@ -186,9 +195,17 @@ pub fn describe(bench: &Benchmark) -> String {
             ("frame, queued, untimed", row.total),
             ("of it recording, submitting", row.cpu),
         ];
-        let asleep = row.asleep.map(|time| ("step, queued, liquid asleep", time));
-        for (name, Timing { median_ms, p95_ms }) in whole.into_iter().chain(asleep) {
+        for (name, Timing { median_ms, p95_ms }) in whole {
             let _ = writeln!(text, "{name:<28} {median_ms:>10.3} {p95_ms:>10.3}");
+        }
+        if let Some(Asleep { step, awake }) = row.asleep {
+            let Timing { median_ms, p95_ms } = step;
+            let awake = grouped(awake.into());
+            let _ = writeln!(
+                text,
+                "{:<28} {median_ms:>10.3} {p95_ms:>10.3}   ({awake} particles awake)",
+                "step, queued, asleep"
+            );
         }
         if let Some(paper) = &row.paper {
             let _ = writeln!(

@@ -233,7 +233,11 @@ fn a_touch_just_before_a_new_start_counts() {
         panic!("{:?}", outcome.attempts);
     };
     let touched = attempt.incidents.iter().filter_map(|it| match &it.what {
-        What::OnSkin { volume_m3, .. } => Some(1e6 * volume_m3),
+        What::OnSkin {
+            skin: SkinOf::LeftHand,
+            volume_m3,
+            ..
+        } => Some(1e6 * volume_m3),
         _ => None,
     });
     let (found, counted) = (touched.sum::<f64>(), outcome.contacts.left_hand.liquid_ml);

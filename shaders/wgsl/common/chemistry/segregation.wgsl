@@ -19,9 +19,11 @@ const WATER_VISCOSITY: f32 = 0.89e-3;
 const LEAST_DEPTH: f32 = 1e-3;
 const PI: f32 = 3.14159265358979;
 
-/// What lamellae differ in from their mean: [h at 25 °C (J/kg), cp at 20 °C (J/(kg K)), dcp/dT (J/(kg K²)),
-/// c less that of the middle of the water].
-@group(0) @binding(34) var<storage, read> lamellae: array<vec4<f32>>;
+/// Row k of the table behind that of the solution, what lamellae differ in from their mean: [h at 25 °C (J/kg), cp at 20 °C (J/(kg K)),
+/// dcp/dT (J/(kg K²)), c less that of the middle of the water].
+fn lamellae(k: u32) -> vec4<f32> {
+    return solution[2u * (SOLUTION_INTERVALS + 1u) + k];
+}
 
 fn excess_of(acid: f32, variance: f32) -> vec4<f32> {
     let most = acid * (FEED - acid);
@@ -31,8 +33,8 @@ fn excess_of(acid: f32, variance: f32) -> vec4<f32> {
     let t = at - low;
     let node = u32(low.x) * (LAMELLAE_INTERVALS + 1u) + u32(low.y);
     let above = node + LAMELLAE_INTERVALS + 1u;
-    let here = mix(lamellae[node], lamellae[node + 1u], t.y);
-    let there = mix(lamellae[above], lamellae[above + 1u], t.y);
+    let here = mix(lamellae(node), lamellae(node + 1u), t.y);
+    let there = mix(lamellae(above), lamellae(above + 1u), t.y);
     return mix(here, there, t.x);
 }
 

@@ -5,11 +5,11 @@
 /// Whether liquid that rests is left out.
 override SLEEP: bool = false;
 
-/// Number of particles that do not rest; whether flasks fell asleep or woke up in this frame; then, by flask, whether its liquid rests.
+/// Number of particles that do not rest; number of those that rebuilds of this frame sort; then, by flask, whether its liquid rests.
 @group(0) @binding(59) var<storage, read> sleep: array<u32>;
 
 const SLEEP_AWAKE = 0u;
-const SLEEP_CHANGED = 1u;
+const SLEEP_SORTED = 1u;
 const SLEEP_FLASKS = 2u;
 
 /// Number of particles that a pass moves: the first ones.
@@ -29,8 +29,9 @@ fn sleeps(membership: u32) -> bool {
     return false;
 }
 
-/// Number of particles that a rebuild of the list sorts: all of them where a flask fell asleep or woke up.
+/// Number of particles that a rebuild of the list sorts: all of them where a flask fell asleep or woke up. The same throughout a frame, also where
+/// fewer are awake after a rebuild: else its later passes would leave out the last ones.
 fn sorted_count() -> u32 {
-    if (SLEEP) { return select(sleep[SLEEP_AWAKE], COUNT, sleep[SLEEP_CHANGED] != 0u); }
+    if (SLEEP) { return sleep[SLEEP_SORTED]; }
     return COUNT;
 }

@@ -8,11 +8,13 @@ struct FlaskSleep {
     /// Frames since something last moved, came near or was not even, up to `CALM_FRAMES`.
     calm: u32,
     orientation: vec4<f32>,
-    /// Above 0 where something of the last frame keeps its liquid awake.
+    /// Above 0 where something of the last frame keeps its liquid awake; at a frame's start also the bits of `sim/sleep.wgsl`.
     lively: atomic<u32>,
     /// Least and greatest acid fraction of its particles in the last frame, bits of an f32.
     least_acid: atomic<u32>,
     most_acid: atomic<u32>,
+    /// Above 0 where its particles' mean square of the speed is more than that of liquid at rest: sums of `sim/calm.wgsl`.
+    unrest: atomic<i32>,
 }
 
 @group(0) @binding(60) var<storage, read_write> flask_sleeps: array<FlaskSleep>;

@@ -35,7 +35,9 @@ fn setup(scene: &Scene) -> Setup {
 
 /// Labels of a frame's passes, in their order; `line_26` is the chemistry's.
 fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String> {
-    let mut all = vec!["predict"];
+    let sleeps = p.sleep && p.heaters.iter().all(|&watts| watts == 0.0);
+    let mut all = Vec::from_iter(sleeps.then_some("sleep"));
+    all.push("predict");
     let bubbles = match &p.chemistry {
         Some(Chemistry::Physical(physical)) => physical.bubbles,
         _ => None,
@@ -69,6 +71,9 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         let (smoothing, _) = physical.mixing.smoothing(p.support_radius);
         all.extend(["smooth"].repeat(smoothing as usize));
         all.push("strain");
+    }
+    all.extend(sleeps.then_some("calm"));
+    if let Some(Chemistry::Physical(physical)) = &p.chemistry {
         all.extend(physical.losses.map(|_| "glass"));
         all.extend(physical.losses.and(bubbles).map(|_| "dew"));
         all.extend(bubbles.iter().flat_map(|_| ["rise", "vent"]));
@@ -78,10 +83,11 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         "fill" | "upload" => name.to_owned(),
         pass => format!("sim/{pass}:main"),
     });
-    // The poses go first, the loads come back, and a frame has its sum.
+    // The poses go first; the loads, and what sleeps and where, come back; and a frame has its sum.
     let mut all = vec!["upload".to_owned()];
     all.extend(passes);
-    all.extend(loads.then(|| "copy".to_owned()));
+    let copies = usize::from(loads) + 2 * usize::from(sleeps);
+    all.extend(["copy".to_owned()].repeat(copies));
     all.push("total".to_owned());
     all
 }
