@@ -437,8 +437,8 @@ fn a_slosh_is_not_caught_at_its_turn() {
             .iter()
             .map(|it| it.position.y * (it.position.x - x))
             .sum();
-        // Of a surface y = a x over a round glass of radius r, ⟨y x⟩ is a r²/8.
-        8.0 * sum / found.len() as f64 / 0.013_f64.powi(2)
+        // Under a surface y = H + a x in a round glass of radius r, ⟨y x⟩ is a r²/4.
+        4.0 * sum / found.len() as f64 / 0.013_f64.powi(2)
     };
     let asleep = (0..400).find(|_| {
         frames(&gpu, &solver, &[pose], 1);

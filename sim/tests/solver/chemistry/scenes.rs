@@ -87,7 +87,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
     let mut all = vec!["upload".to_owned()];
     all.extend(passes);
     let copies = usize::from(loads) + 2 * usize::from(sleeps);
-    all.extend(["copy".to_owned()].repeat(copies));
+    all.extend(vec!["copy".to_owned(); copies]);
     all.push("total".to_owned());
     all
 }
