@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::body::Bytes;
 use futures_util::stream::{SplitSink, SplitStream};
@@ -221,10 +221,16 @@ impl Dialler {
                 Err(_) => Refused::Late.to_string(),
                 Ok(Err(refused)) => refused.to_string(),
                 Ok(Ok(socket)) => {
-                    pause = PAUSES[0];
+                    let begun = Instant::now();
                     lock(&self.outgoing.pictures).restart();
+                    // A card from before the connection was lost is old, and the hub would show it as new.
+                    *lock(&self.outgoing.card) = None;
                     *lock(&self.status) = LinkStatus::Connected;
                     self.talk(socket).await;
+                    // A hub that ends each connection at once is not asked several times a second.
+                    if begun.elapsed() > PAUSES[1] {
+                        pause = PAUSES[0];
+                    }
                     // No page shows this student any more.
                     self.inbox.want(Wanted::default());
                     "the connection to the hub broke".to_owned()

@@ -49,7 +49,7 @@ impl Coder {
         })
     }
 
-    /// Whether somebody looks.
+    /// Whether a page shows the view, or a picture for a card was asked for.
     pub fn is_wanted(&self) -> bool {
         let wanted = self.port.wanted();
         wanted.h264 || wanted.jpeg || self.port.wants_card()

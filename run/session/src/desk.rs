@@ -21,7 +21,7 @@ use vitriol_xr::{
 
 use self::hands::Hands;
 use self::input::{Input, Inputs};
-use self::rate::rate;
+use self::rate::{rate, rates};
 use self::view::Viewpoint;
 pub use self::view::{FOV, FOVS};
 use crate::decision::Decision;
@@ -61,6 +61,9 @@ pub struct Desk {
     hands: Hands,
     around: Around,
     clock: FrameClock,
+    /// The rate at which it begins, Hz, and those from which a governor may choose.
+    rate: f64,
+    rates: Vec<f32>,
     index: u64,
     leaving: bool,
     name: String,
@@ -145,6 +148,8 @@ impl Desk {
             // Its longest frame is 0: no hand moves before the bench is there.
             around: Around::default(),
             clock: FrameClock::new(rate),
+            rate,
+            rates: rates(rate, gpu.info().kind),
             index: 0,
             leaving: false,
             name: format!("a window at {rate:.0} Hz on {}", gpu.info().name),
@@ -236,6 +241,9 @@ impl Headset for Desk {
         }
         if let Some(gpu) = self.reopening.next()? {
             self.targets = targets(&gpu)?;
+            // The session begins anew at the display's rate, since the times of the old device say nothing about this one.
+            self.clock.change(self.rate);
+            self.rates = rates(self.rate, gpu.info().kind);
             self.gpu = gpu;
             return Ok(Turn::Renewed);
         }
@@ -287,6 +295,15 @@ impl Headset for Desk {
 
     fn lose_device(&mut self) {
         self.reopening.lose();
+    }
+
+    fn rates(&self) -> &[f32] {
+        &self.rates
+    }
+
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        self.clock.change(rate.into());
+        Ok(())
     }
 
     fn request_exit(&mut self) -> Result<(), HeadsetError> {

@@ -6,9 +6,11 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Copy, Debug)]
 pub struct FrameClock {
     /// Frames a second.
-    pub rate_hz: f64,
+    rate_hz: f64,
     started: Option<Instant>,
-    /// Number of the period in which the last frame is shown; 0 before the first one.
+    /// From the first frame to the first one of this rate, s.
+    since: f64,
+    /// Number of the period of this rate in which the last frame is shown; 0 before the first one.
     period: u64,
 }
 
@@ -18,8 +20,16 @@ impl FrameClock {
         Self {
             rate_hz,
             started: None,
+            since: 0.0,
             period: 0,
         }
+    }
+
+    /// So many frames a second from the last frame on.
+    pub fn change(&mut self, rate_hz: f64) {
+        self.since = self.time();
+        self.period = self.period.min(1);
+        self.rate_hz = rate_hz;
     }
 
     /// Length of a period, s.
@@ -34,7 +44,7 @@ impl FrameClock {
 
     /// From the first frame to the last one, s.
     pub fn time(&self) -> f64 {
-        self.period.saturating_sub(1) as f64 * self.seconds()
+        self.since + self.period.saturating_sub(1) as f64 * self.seconds()
     }
 
     /// When the last frame began, by [`FrameClock::wait`]; `None` before the first one.
@@ -59,7 +69,8 @@ impl FrameClock {
     /// The next frame at `now` seconds after the start: in the period that this is in, and in none twice. The time since the last one, s.
     fn go_on(&mut self, now: f64) -> f64 {
         let before = self.period;
-        self.period = (before + 1).max((now / self.seconds()).floor() as u64 + 1);
+        let period = ((now - self.since) / self.seconds()).floor() as u64 + 1;
+        self.period = (before + 1).max(period);
         (self.period - before) as f64 * self.seconds()
     }
 }
@@ -86,6 +97,27 @@ mod tests {
         assert_eq!(clock.period_ns(), 20_000_000);
         clock.step();
         assert!(nearly(clock.time(), 0.12), "{}", clock.time());
+    }
+
+    /// No time is left out and none is counted twice where the rate changes.
+    #[test]
+    fn another_rate_begins_at_the_last_frame() {
+        let mut clock = FrameClock::new(50.0);
+        let nearly = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        // Before the first frame too.
+        clock.change(25.0);
+        for (rate, now, time, passed) in [
+            (50.0, 0.0, 0.0, 0.02),
+            (50.0, 0.001, 0.02, 0.02),
+            (25.0, 0.021, 0.06, 0.04),
+            // It took two periods.
+            (25.0, 0.15, 0.14, 0.08),
+            (50.0, 0.141, 0.16, 0.02),
+        ] {
+            clock.change(rate);
+            assert!(nearly(clock.go_on(now), passed), "{now}");
+            assert!(nearly(clock.time(), time), "{now}: {}", clock.time());
+        }
     }
 
     /// It waits at least until the frame begins; how much longer is the system's matter.

@@ -301,7 +301,7 @@ impl Headset for StandIn {
     }
 
     fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
-        self.clock.rate_hz = rate.into();
+        self.clock.change(rate.into());
         Ok(())
     }
 

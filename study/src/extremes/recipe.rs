@@ -216,7 +216,8 @@ impl Recipe {
             self.carry_rate,
             self.v_max,
             self.viscosity,
-            // In half of the cases, without a draw of its own: the others stay what they were.
+            // In water and physical chemistry (10 substeps), unless an extreme makes the number odd; not in the paper's world (3). A draw of its
+            // own would change all cases.
             self.substeps.is_multiple_of(2),
         );
         let angle = match self.surface() {

@@ -20,7 +20,8 @@ use crate::wire::{Brief, FromPage, ToPage};
 /// Students at a time. Our choice: more than a class has.
 pub(super) const STUDENTS: usize = 64;
 
-/// Ticks of the hub between two pictures of a student's card: 4 s. Our choice: a glance shows who has stopped, and a class of 30 sends 120 kB/s at most.
+/// Ticks of the hub between two pictures of a student's card: 4 s. Our choice: a glance shows who has stopped, and a class of 30 sends
+/// 120 kB/s at most.
 const CARD_TICKS: u64 = 16;
 
 /// A student's connection: the student's number, and the connection's.

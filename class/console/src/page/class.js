@@ -44,14 +44,18 @@ function card(student) {
 // A card's picture, behind the student's number. It is taken away where the next three, which are 4 s apart, have not come.
 const OLD = 15000;   // ms
 async function receiveCard(head) {
-  const canvas = cards.get(head.getUint32(4, true))?.querySelector("canvas");
+  const number = head.getUint32(4, true);
+  const canvas = cards.get(number)?.querySelector("canvas");
   if (!canvas || page.hides || page.opened !== null) return;
   try {
     const image = await createImageBitmap(new Blob([new Uint8Array(head.buffer, 8)], { type: "image/jpeg" }));
-    Object.assign(canvas, { width: image.width, height: image.height, hidden: false });
-    canvas.getContext("2d").drawImage(image, 0, 0);
+    // A class in which the student has left may have come before the picture, or while it was decoded.
+    if (page.students.some((student) => student.student === number && student.here)) {
+      Object.assign(canvas, { width: image.width, height: image.height, hidden: false });
+      canvas.getContext("2d").drawImage(image, 0, 0);
+      canvas.dataset.drawn = performance.now();
+    }
     image.close();
-    canvas.dataset.drawn = performance.now();
   } catch { /* A broken one is left out. */ }
 }
 setInterval(() => {
