@@ -38,7 +38,8 @@ const WAITS: f64 = 0.25;
 #[derive(Clone)]
 struct Page {
     hub: Rc<Hub>,
-    source_ml: Arc<Mutex<Option<f64>>>,
+    /// What the source holds, and the number of readings so far.
+    read: Arc<Mutex<(Option<f64>, u64)>>,
 }
 
 impl Page {
@@ -54,25 +55,31 @@ impl Page {
         });
         Self {
             hub: hub.into(),
-            source_ml: Arc::default(),
+            read: Arc::default(),
         }
     }
 
     /// Opens it. It reads on until the hub ends.
     fn open(&self) {
         let mut watcher = Watcher::enter(&self.hub, Codec::Jpeg).unwrap();
-        let source_ml = Arc::clone(&self.source_ml);
+        let last = Arc::clone(&self.read);
         std::thread::spawn(move || {
             while let Ok(state) = watcher.hear_state() {
                 let read = state["readings"]["flasks"][SOURCE]["volume_m3"].as_f64();
-                *source_ml.lock().unwrap() = read.map(|m3| 1e6 * m3);
+                let mut last = last.lock().unwrap();
+                *last = (read.map(|m3| 1e6 * m3), last.1 + 1);
             }
         });
     }
 
     /// What the source holds, mL; `None` before the first reading.
     fn source_ml(&self) -> Option<f64> {
-        *self.source_ml.lock().unwrap()
+        self.read.lock().unwrap().0
+    }
+
+    /// Number of readings so far.
+    fn readings(&self) -> u64 {
+        self.read.lock().unwrap().1
     }
 
     /// What has left it, mL.
@@ -96,6 +103,8 @@ fn reads(script: Script, page: Page) -> Script {
 
 fn pours(script: Script, page: Page) -> Script {
     let (mut coarse, mut fine, mut back) = (0.0, 0.0, 0.0);
+    // Who has seen no new reading does not tilt further: beside other work a page comes late.
+    let mut read = 0;
     carries(script)
         .then("tilts it", move |user, seen, _| {
             let tilted = seen.tilt(SOURCE) >= NOT_YET;
@@ -110,9 +119,11 @@ fn pours(script: Script, page: Page) -> Script {
             assert!(axis.x > 0.4, "not to the right: {axis}");
             let over = aims(user, seen);
             let poured = page.poured_ml();
-            if over && poured < STOPS && seen.lasts >= fine {
+            let readings = page.readings();
+            if over && poured < STOPS && seen.lasts >= fine && readings > read {
                 user.tilts(if poured > READS { FINEST } else { FINE });
                 fine = seen.lasts + WAITS;
+                read = readings;
             }
             poured >= STOPS
         })

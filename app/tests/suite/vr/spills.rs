@@ -89,10 +89,19 @@ fn found(attempts: &[Attempt], lies: f64) {
         incidents.len(),
         "{incidents:?}"
     );
-    let skin = incidents
+    // A drop of the lip may come to the hand that pours, and before.
+    let [skin] = incidents
         .iter()
-        .find(|it| matches!(it.what, What::OnSkin { .. }))
-        .unwrap();
+        .filter(|it| match it.what {
+            What::OnSkin {
+                skin, volume_m3, ..
+            } => skin == SkinOf::LeftHand || volume_m3 > 5e-7,
+            _ => false,
+        })
+        .collect::<Vec<_>>()[..]
+    else {
+        panic!("{incidents:?}");
+    };
     let What::OnSkin {
         skin: part,
         volume_m3,
