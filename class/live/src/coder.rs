@@ -206,4 +206,31 @@ mod tests {
         // One colour takes a small part of the 16,000 bytes that a card may have.
         assert!((8..16_008).contains(&bytes), "{bytes} bytes");
     }
+
+    mod long {
+        use super::*;
+        use vitriol_console::State;
+
+        /// A page that only reads answers nothing but pings; the hub takes half a minute of silence for its end.
+        #[test]
+        fn a_page_that_only_reads_is_served_on() {
+            let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
+            let hub = start(listen, false, Language::En).unwrap();
+            let told = student((Some("Ada"), &Texts::english().unwrap()), true);
+            let port = hub.student(told).unwrap().unwrap();
+            let mut page = Watcher::enter(&hub, Codec::Jpeg).unwrap();
+            let begun = Instant::now();
+            for frame in 0.. {
+                port.publish(State {
+                    frame,
+                    ..State::default()
+                });
+                page.hear_state().unwrap();
+                if begun.elapsed() > Duration::from_secs(45) {
+                    break;
+                }
+                std::thread::sleep(Duration::from_millis(100));
+            }
+        }
+    }
 }

@@ -42,16 +42,24 @@ pub(super) async fn serve(
     drop(place);
 }
 
+/// Sends what waits, and a ping in between however much that is: who only reads answers nothing else.
 async fn send(mut sender: SplitSink<WebSocket, Message>, mailbox: &Mailbox) {
+    let mut pinged = Instant::now();
     loop {
-        let message = match mailbox.next() {
-            Err(()) => return,
-            Ok(Some(Letter::Text(text))) => Message::Text(text),
-            Ok(Some(Letter::Picture(bytes))) => Message::Binary(bytes),
-            Ok(None) => match timeout(PING, mailbox.changed.notified()).await {
-                Ok(()) => continue,
-                Err(_) => Message::Ping(axum::body::Bytes::new()),
-            },
+        let left = PING.saturating_sub(pinged.elapsed());
+        let message = if left.is_zero() {
+            pinged = Instant::now();
+            Message::Ping(axum::body::Bytes::new())
+        } else {
+            match mailbox.next() {
+                Err(()) => return,
+                Ok(Some(Letter::Text(text))) => Message::Text(text),
+                Ok(Some(Letter::Picture(bytes))) => Message::Binary(bytes),
+                Ok(None) => {
+                    let _ = timeout(left, mailbox.changed.notified()).await;
+                    continue;
+                }
+            }
         };
         match timeout(SLOWEST_SEND, sender.send(message)).await {
             Ok(Ok(())) => {}
