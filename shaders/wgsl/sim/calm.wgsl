@@ -44,7 +44,7 @@ fn note_acid(k: u32, acid: f32) {
     if (bits > atomicLoad(&flask_sleeps[k].most_acid)) { atomicMax(&flask_sleeps[k].most_acid, bits); }
 }
 
-/// Keeps all flasks awake while there are bubbles or drops. `sim/sleep.wgsl` asks too, but a state that is taken up has no list of drops.
+/// Keeps all flasks awake while there are bubbles or drops.
 fn note_bubbles() {
     if (live[SLOTS] + live[SLOTS + 1u] == 0u) { return; }
     for (var k = 0u; k < FLASKS; k++) { keep_awake(k); }

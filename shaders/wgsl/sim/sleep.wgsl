@@ -2,7 +2,6 @@
 // temperature for `CALM_FRAMES`, and nothing has come near. All of that is known on the device when the frame begins, so nothing rests that a
 // pass would have moved.
 //!include common/chemistry/features.wgsl
-//!include common/chemistry/slots.wgsl
 //!include common/chemistry/turnover_plan.wgsl
 //!include common/liquid/flask_sleep.wgsl
 //!include common/liquid/list_asked.wgsl
@@ -13,7 +12,6 @@ override CALM_FRAMES: u32 = 18u;
 
 /// As `common/liquid/awake.wgsl` has it.
 @group(0) @binding(59) var<storage, read_write> sleep: array<u32>;
-@group(0) @binding(0) var<storage, read> live: array<u32>;
 
 /// How far a flask may drift while it counts as at rest, m; how far it may turn, as a length of quaternions; difference of acid fractions up to
 /// which liquid is even (`solver/sleep.rs`).
@@ -64,8 +62,6 @@ fn is_even(k: u32) -> bool {
 
 @compute @workgroup_size(1)
 fn main() {
-    var stirred = false;
-    if (BUBBLES) { stirred = live[SLOTS] + live[SLOTS + 1u] > 0u; }
     var changed = false;
     for (var k = 0u; k < FLASKS; k++) { note_motion(k); }
     for (var k = 0u; k < FLASKS; k++) {
@@ -73,7 +69,7 @@ fn main() {
         let unrest = atomicExchange(&flask_sleeps[k].unrest, 0);
         let lively = unrest > 0 || atomicLoad(&flask_sleeps[k].lively) != 0u;
         let even = is_even(k);
-        if (lively || !even || stirred || is_visited(k)) {
+        if (lively || !even || is_visited(k)) {
             flask_sleeps[k].calm = 0u;
             flask_sleeps[k].position = pose.position.xyz;
             flask_sleeps[k].orientation = pose.orientation;

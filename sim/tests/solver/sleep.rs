@@ -443,3 +443,40 @@ fn a_slosh_is_not_caught_at_its_turn() {
     let raised = raised(&found, pose.position.x.into());
     assert!(raised.abs() < 0.25 * D, "{raised} m");
 }
+
+/// Water that turns slowly with no particle fast: the mean alone tells that it is not at rest.
+#[test]
+fn water_that_turns_as_a_whole_stays_awake() {
+    let gpu = gpu::device();
+    let mut setup = glass(still(), 1);
+    setup.parameters.viscosity = 0.02;
+    let solver = setup.solver(&gpu);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+    let mut state = solver.snapshot().unwrap();
+    // 0.02 m/s at the wall.
+    let rate = 0.02 / 0.013;
+    for (v, x) in state.velocities.iter_mut().zip(&state.positions) {
+        *v = [rate * x[2], 0.0, -rate * x[0], v[3]];
+    }
+    solver.restore(&state).unwrap();
+    // Wakes it, and lifts no wave.
+    let lifted = at(0.0, 2e-4, 0.0);
+    frame(&gpu, &solver, &[Pose::IDENTITY], &[lifted]);
+    // A particle is slow below √(2g·0.016 d), and liquid rests below a fifth of that on average.
+    let slow = (2.0 * 9.81 * 0.016 * D).sqrt();
+    for n in 0..40 {
+        frames(&gpu, &solver, &[lifted], 1);
+        let speeds = particles(&solver.snapshot().unwrap());
+        let squares = speeds.iter().map(|it| it.velocity.length_squared());
+        let (sum, most) = squares.fold((0.0, 0.0_f64), |(sum, most), v| (sum + v, most.max(v)));
+        let mean = (sum / 500.0).sqrt();
+        // What else would keep it awake ends in time for 0.2 s of calm.
+        assert!(
+            n < 15 || most.sqrt() < slow,
+            "frame {n}: {} m/s",
+            most.sqrt()
+        );
+        assert!(mean > 0.3 * slow, "frame {n}: {mean} m/s on average");
+        assert_eq!(solver.awake().unwrap(), 500, "frame {n}");
+    }
+}
