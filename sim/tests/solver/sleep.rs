@@ -449,9 +449,9 @@ fn a_slosh_is_not_caught_at_its_turn() {
 fn water_that_turns_as_a_whole_stays_awake() {
     let gpu = gpu::device();
     let mut setup = glass(still(), 1);
-    setup.parameters.viscosity = 0.02;
+    setup.parameters.viscosity = 0.05;
     let solver = setup.solver(&gpu);
-    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+    frames(&gpu, &solver, &[Pose::IDENTITY], 2 * SETTLED);
     let mut state = solver.snapshot().unwrap();
     // 0.02 m/s at the wall.
     let rate = 0.02 / 0.013;
@@ -476,7 +476,7 @@ fn water_that_turns_as_a_whole_stays_awake() {
             "frame {n}: {} m/s",
             most.sqrt()
         );
-        assert!(mean > 0.3 * slow, "frame {n}: {mean} m/s on average");
+        assert!(mean > 0.22 * slow, "frame {n}: {mean} m/s on average");
         assert_eq!(solver.awake().unwrap(), 500, "frame {n}");
     }
 }
