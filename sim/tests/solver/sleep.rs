@@ -5,7 +5,8 @@ use crate::common::*;
 use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_sim::chemistry::Chemistry;
+use vitriol_shaders::layout::Drops;
+use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Particle, Solver, Touch};
@@ -305,9 +306,17 @@ fn warm_and_uneven_liquid_stays_awake() {
     assert!(asleep(&|_| (20.0, 0.98)));
     assert!(!asleep(&|_| (30.0, 0.98)), "10 K above the room");
     assert!(!asleep(&|_| (21.5, 0.98)), "1.5 K above the room");
-    // Water over acid, two fractions that lie 1 % apart.
-    let split = |height: f64| (20.0, if height > 0.5 { 0.97 } else { 0.98 });
-    assert!(!asleep(&split), "two layers");
+    // Two fractions that lie apart, with nothing unmixed within particles.
+    let law = Physical {
+        lamella: None,
+        ..with_bubbles()
+    };
+    let p = with(Chemistry::Physical(law), calm());
+    let layers = |height: f64| (20.0, if height > 0.5 { 0.977 } else { 0.98 });
+    let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, layers));
+    let solver = setup.solver(&gpu);
+    frames(&gpu, &solver, &[Pose::IDENTITY], SETTLED);
+    assert_eq!(solver.awake().unwrap(), 500, "two layers");
 }
 
 /// Liquid over a plate that is on never sleeps.
@@ -390,6 +399,8 @@ fn what_is_wiped_up_takes_none_along() {
         let mut found: Vec<_> = state.tags.iter().map(|tag| tag[1]).collect();
         found.sort_unstable();
         assert!(found.into_iter().eq(0..540), "{lanes} lanes");
+        // Taken out, it is in no pass.
+        assert_eq!(solver.awake().unwrap(), 539);
         let gone = (0..540).filter(|&slot| !state.is_present(slot));
         assert_eq!(
             gone.map(|slot| state.tags[slot][1]).collect::<Vec<_>>(),
@@ -479,4 +490,66 @@ fn water_that_turns_as_a_whole_stays_awake() {
         assert!(mean > 0.22 * slow, "frame {n}: {mean} m/s on average");
         assert_eq!(solver.awake().unwrap(), 500, "frame {n}");
     }
+}
+
+/// Drops in the air may come down, and what is unmixed within particles mixes.
+#[test]
+fn drops_and_unmixed_particles_keep_liquid_awake() {
+    let gpu = gpu::device();
+    let p = with(Chemistry::Physical(with_bubbles()), calm());
+    let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, |_| (20.0, 0.5)));
+    let poses = [Pose::IDENTITY];
+    let solver = setup.solver(&gpu);
+    let mut flying = solver.snapshot().unwrap();
+    // It falls past all, for longer than the liquid needs to come to rest.
+    flying.drops_mut()[0] = Drops {
+        position: [1.0, 3.0, 0.0],
+        mass: 0.01,
+        radius: 5e-4,
+        density: 1000.0,
+        ..Drops::default()
+    };
+    solver.restore(&flying).unwrap();
+    frames(&gpu, &solver, &poses, SETTLED);
+    let state = solver.snapshot().unwrap();
+    assert!(state.drops()[0].mass > 0.0, "it is gone");
+    assert_eq!(solver.awake().unwrap(), 500, "a drop in the air");
+    let mut unmixed = setup.solver(&gpu).snapshot().unwrap();
+    for eddies in &mut unmixed.eddies {
+        eddies[1] = 1e-5;
+    }
+    solver.restore(&unmixed).unwrap();
+    frames(&gpu, &solver, &poses, SETTLED);
+    assert_eq!(solver.awake().unwrap(), 500, "unmixed particles");
+    let state = solver.snapshot().unwrap();
+    let warmest = state.heat.iter().map(|heat| heat[0]).fold(0.0, f32::max);
+    assert!(warmest < 21.0, "{warmest} °C would keep it awake too");
+}
+
+/// The pass of turnovers is dormant while all sleeps, and runs for liquid that wakes up with fast eddies: the same bits as if it always ran.
+#[test]
+fn what_wakes_up_swaps_as_with_all_passes() {
+    let gpu = gpu::device();
+    let run = |dormant: bool| {
+        let p = Parameters {
+            dormant,
+            ..with(Chemistry::Physical(with_bubbles()), calm())
+        };
+        let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, |_| (20.0, 0.98)));
+        let solver = setup.solver(&gpu);
+        fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
+        let mut state = solver.snapshot().unwrap();
+        for (slot, eddies) in state.eddies.iter_mut().enumerate() {
+            eddies[0] = 1e-3 * (1.0 + slot as f32 / 500.0);
+        }
+        solver.restore(&state).unwrap();
+        frames(&gpu, &solver, &[Pose::IDENTITY], 4);
+        assert_eq!(solver.awake().unwrap(), 0);
+        assert_eq!(solver.dormant().unwrap().turnover, dormant);
+        frame(&gpu, &solver, &[Pose::IDENTITY], &[at(0.0, 5e-4, 0.0)]);
+        assert_eq!(solver.awake().unwrap(), 500);
+        solver.snapshot().unwrap()
+    };
+    let [with, without] = [true, false].map(run);
+    assert!(with == without);
 }
