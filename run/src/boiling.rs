@@ -9,7 +9,7 @@ use crate::sample::{LedgerSample, Sample};
 const STEAM: f64 = 461.5 * 373.15 / 101_325.0;
 /// Time over which steam is averaged, s: bubbles burst one by one, and a tenth of a second would hold few. Our choice.
 const WINDOW: f64 = 0.5;
-/// Time from the first contact of acid and water in which what leaves counts as thrown, s. Our choice.
+/// Time from the first contact of acid and water, or of layers from the first bubble, in which what leaves counts as thrown, s. Our choice.
 const FIRST: f64 = 2.0;
 /// Tolerance of times, which are sums of steps, s.
 const ROUNDING: f64 = 1e-6;
@@ -56,8 +56,13 @@ fn hottest_surface(sample: &Sample) -> Option<(&str, f64)> {
     Some((flask, *sample.surface_m2.get(flask)?))
 }
 
-/// What left the flask in the first seconds after contact, kg; `None` where the run ends before.
+/// What left the flask in the first seconds after contact, kg; `None` where the run ends before. Layers are in contact from the start and
+/// lie still, so theirs begin with the first bubble.
 fn thrown(samples: &[Sample], (contact, flask): (f64, &str)) -> Option<f64> {
+    let boils = |it: &&Sample| ledger(it).is_some_and(|it| it.bubbles_m3 > 0.0);
+    let lay_together = contact < ROUNDING;
+    let first_bubble = samples.iter().find(boils).filter(|_| lay_together);
+    let contact = first_bubble.map_or(contact, |it| it.t_s);
     let until = contact + FIRST;
     if samples.last()?.t_s < until - ROUNDING {
         return None;
@@ -159,6 +164,28 @@ mod tests {
             long.push(next);
         }
         assert_eq!(boiling(&long, true, contact), short);
+    }
+
+    /// Layers lie still for 1.5 s, and boil when they are swirled; a second later drops leave.
+    #[test]
+    fn what_layers_throw_counts_from_the_first_bubble() {
+        let mut layers = series();
+        for sample in &mut layers {
+            let left = if sample.t_s < 2.45 { 0.0 } else { 5e-5 };
+            sample.left_kg.insert("hot".into(), left);
+            if sample.t_s < 1.45 {
+                let heat = sample.heat.as_mut().unwrap();
+                heat.ledger.as_mut().unwrap().bubbles_m3 = 0.0;
+            }
+        }
+        let at_the_start = Some((0.0, "hot"));
+        let thrown = |of: &[Sample]| boiling(of, true, at_the_start).thrown_first_kg;
+        is_near(thrown(&layers), 5e-5);
+        for sample in &mut layers {
+            let heat = sample.heat.as_mut().unwrap();
+            heat.ledger.as_mut().unwrap().bubbles_m3 = 0.0;
+        }
+        assert_eq!(thrown(&layers), Some(0.0));
     }
 
     #[test]

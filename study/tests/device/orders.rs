@@ -73,21 +73,28 @@ mod long {
     }
 
     /// Layers that a hand swirls on a circle: water on acid boils and throws drops, acid under water warms and throws none. 4 s, as the
-    /// last turn ends at 3.5 s. Three seeds throw 29 to 146 mg with 117 to 120 mg of steam, and nothing (`docs/measurements/bubbles.md`).
+    /// last turn ends at 3.5 s. What is thrown differs by a factor of seventy between seeds, so the mean of three counts; steam differs by
+    /// 4 % (`docs/measurements/bubbles.md`).
     #[test]
     fn layers_that_are_swirled_boil_in_the_wrong_order_alone() {
         let device = gpu::device();
         let text = include_str!("../../../xr/tracks/layer-and-swirl.toml");
         let keyframes = Keyframes::parse(text, Path::new("layer-and-swirl.toml")).unwrap();
         let track = keyframes.sample_track();
-        let [wrong, right] = ["layer-and-swirl", "layer-and-swirl-right"].map(|name| {
+        let swirl = |name, seed| {
             let scene = Scene::builtin(name).unwrap().with_preset(Preset::Fast);
             let of = (&scene, &Library::embedded());
-            let boiled = boil(&device, of, &track, 4.0, 1).unwrap().0;
-            eprintln!("{name}: {boiled:?}");
+            let boiled = boil(&device, of, &track, 4.0, seed).unwrap().0;
+            eprintln!("{name}, seed {seed}: {boiled:?}");
             boiled
-        });
-        assert!(wrong.steam > 0.03 && wrong.thrown > 0.01, "{wrong:?}");
+        };
+        let wrong = [1, 2, 3].map(|seed| swirl("layer-and-swirl", seed));
+        let thrown = wrong.iter().map(|boiled| boiled.thrown).sum::<f64>() / 3.0;
+        assert!(thrown > 0.01, "{wrong:?}");
+        for boiled in &wrong {
+            assert!(boiled.steam > 0.03 && boiled.thrown > 0.0, "{boiled:?}");
+        }
+        let right = swirl("layer-and-swirl-right", 1);
         assert!(right.steam < 1e-3 && right.thrown < 0.01, "{right:?}");
         assert!(right.temperature > 25.0, "{right:?}");
     }
