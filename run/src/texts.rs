@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use crate::units::three_digits;
 use crate::{Action, Blame, Failure};
 use serde::Deserialize;
-use vitriol_lesson::Language;
+use vitriol_lesson::{Language, Template};
 use vitriol_sound::Caption;
 
-pub use self::grades::GradesTexts;
+pub use self::grades::{FilesTexts, GradesTexts, Otherwise};
 
 /// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -27,6 +27,28 @@ pub struct Texts {
     pub panel: PanelTexts,
     /// Texts of a class's grades.
     pub grades: GradesTexts,
+    /// What of a recording is not whole.
+    pub track: TrackTexts,
+}
+
+/// What of a recording is not whole.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrackTexts {
+    /// Its first step is missing.
+    pub no_first: Template,
+    /// Its first steps are.
+    pub no_firsts: Template,
+    /// Why it ends: a step is missing.
+    pub hole: Template,
+    /// Likewise several.
+    pub holes: Template,
+    /// Likewise: it is cut.
+    pub cut: Template,
+    /// What is whole of it is replayed.
+    pub replayed: Template,
+    /// It is refused because it has no end.
+    pub breaks_off: Template,
 }
 
 /// Texts of the panel itself.

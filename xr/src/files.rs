@@ -129,13 +129,18 @@ fn decoded(bytes: &[u8]) -> Option<String> {
 /// How alike a name is to what may be meant by it: clap's measure and bound for options and commands.
 const ALIKE: f64 = 0.7;
 
+/// The built-in name that a user's `name` is most like, if it is like any.
+pub fn alike<'b>(name: &str, builtin: &[&'b str]) -> Option<&'b str> {
+    let alike = builtin.iter().map(|it| (strsim::jaro(name, it), *it));
+    let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.filter(|(alike, _)| *alike > ALIKE).map(|it| it.1)
+}
+
 /// For the error where a user's `name` is neither a file's nor built in: the built-in one that it is most like, if it is like any, and
 /// all of them.
 pub fn suggested(name: &str, builtin: &[&str]) -> String {
-    let alike = builtin.iter().map(|it| (strsim::jaro(name, it), it));
-    let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
-    let meant = nearest.filter(|(alike, _)| *alike > ALIKE);
-    let meant = meant.map_or_else(String::new, |(_, it)| format!("did you mean {it}? "));
+    let meant = alike(name, builtin);
+    let meant = meant.map_or_else(String::new, |it| format!("did you mean {it}? "));
     format!("{meant}built in are {}", builtin.join(", "))
 }
 

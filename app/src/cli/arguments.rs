@@ -125,7 +125,7 @@ pub struct ReplayArgs {
     /// What is judged
     #[command(flatten)]
     pub judge: JudgeArgs,
-    /// Language of what the report and the console say of the attempt: en, de, es or zh
+    /// Language of what the report and the console say of the attempt, and of the lesson's faults: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// What is kept of a student

@@ -34,7 +34,7 @@ pub struct GradeArgs {
     /// As it is gone through: guided, free or examination; without it as the lesson says
     #[arg(long, value_name = "MODE", requires = "lesson")]
     pub mode: Option<Mode>,
-    /// Language of what the table says of them: en, de, es or zh
+    /// Language of what the table says of them, and of why a file is not graded: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// Tracks at a time; without it as many as there are cores, and one with --verify

@@ -18,7 +18,7 @@ pub struct LessonArgs {
     /// built-in ones are listed
     #[arg(value_name = "LESSON")]
     pub lesson: Option<String>,
-    /// Language of its texts: en, de, es or zh
+    /// Language of its texts and of its faults: en, de, es or zh
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// Print the file of a built-in lesson as it is; `vitriol lesson new` writes one to begin an own lesson with
@@ -61,7 +61,7 @@ pub struct NewLessonArgs {
     /// The built-in lesson that it begins as (see `vitriol lesson`)
     #[arg(long, value_name = "LESSON", default_value = "dilute")]
     pub from: String,
-    /// Language of its texts: en, de, es or zh; a lesson needs no other one
+    /// Language of its texts, and of what is wrong with the name: en, de, es or zh; a lesson needs no other one
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
 }

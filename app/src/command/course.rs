@@ -4,9 +4,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::Progress;
-use vitriol_lesson::{Lesson, Mode, SceneFacts};
+use vitriol_lesson::{FaultTexts, Language, Lesson, Mode, SceneFacts};
+use vitriol_run::texts::Otherwise;
 use vitriol_run::track::{LESSON, LESSON_HASH, MODE};
-use vitriol_run::{Blame, Failure, Judging, Scenes, in_a_line};
+use vitriol_run::{Blame, Failure, Judging, Scenes};
 use vitriol_xr::files;
 use vitriol_xr::track::Track;
 
@@ -16,17 +17,26 @@ use crate::command::recorded::recorded_progress;
 /// Longest lesson's file that is read, bytes: a hundred times the length of a lesson.
 const LONGEST: u64 = 1 << 20;
 
-/// The lesson of that name or file, which its scene has all for, and its mode: one that it has, its usual one where none is named.
+/// The lesson of that name or file, which its scene has all for, and its mode: one that it has, its usual one where none is named. What
+/// is wrong with them is said in that language.
 ///
 /// # Errors
 /// [`Failure::Input`] where there is no such lesson, it is spoiled, or has no such mode.
-pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> {
-    let lesson = open(name)?;
+pub fn named(
+    name: &str,
+    mode: Option<Mode>,
+    language: Language,
+) -> Result<(Lesson, Mode), Failure> {
+    let lesson = open(name, language)?;
     let mode = mode.unwrap_or(lesson.default_mode());
     if !lesson.modes.contains(&mode) {
         let modes: Vec<_> = lesson.modes.iter().map(|mode| mode.name()).collect();
-        let modes = modes.join(", ");
-        return Err(format!("--mode {mode}: {name} has {modes}")).input();
+        let problem = FaultTexts::of(language).other()?.mode.fill(&[
+            ("mode", mode.name()),
+            ("name", name),
+            ("known", &modes.join(", ")),
+        ]);
+        return Err(problem).input();
     }
     Ok((lesson, mode))
 }
@@ -34,16 +44,20 @@ pub fn named(name: &str, mode: Option<Mode>) -> Result<(Lesson, Mode), Failure> 
 /// The lesson of that name or file, which its scene has all for.
 ///
 /// # Errors
-/// [`Failure::Input`] with each fault: file, line, field and what would be right.
-pub fn open(name: &str) -> Result<Lesson, Failure> {
-    let builtin = Lesson::builtin_names();
-    if !builtin.contains(&name) && files::is_absent(Path::new(name)) {
+/// [`Failure::Input`] with each fault, in that language: file, line, field and what would be right.
+pub fn open(name: &str, language: Language) -> Result<Lesson, Failure> {
+    if !Lesson::builtin_names().contains(&name) && files::is_absent(Path::new(name)) {
+        let texts = FaultTexts::of(language).other()?;
         let file = format!("{name}.toml");
-        let meant = match files::is_absent(Path::new(&file)) {
-            true => format!("{}; or give a path", files::suggested(name, &builtin)),
-            false => format!("did you mean {file}?"),
+        let quoted = format!("{name:?}");
+        let problem = match files::is_absent(Path::new(&file)) {
+            true => {
+                let meant = suggested(name, &texts);
+                (texts.no_file).fill(&[("name", &quoted), ("meant", &meant)])
+            }
+            false => (texts.other_file).fill(&[("name", &quoted), ("file", &file)]),
         };
-        return Err(format!("lesson {name:?}: no such file; {meant}")).input();
+        return Err(problem).input();
     }
     let read;
     let text = match Lesson::builtin_text(name) {
@@ -54,11 +68,21 @@ pub fn open(name: &str) -> Result<Lesson, Failure> {
         }
     };
     // A scene that cannot be read is one of the lesson's faults, beside the others.
-    Lesson::parse_for(text, name, |scene| {
+    Lesson::parse_for(text, (name, language), |scene| {
         let facts = facts(scene).map_err(|failure| failure.to_string())?;
         Ok(Some(facts))
     })
     .input()
+}
+
+/// As [`files::suggested`], for a lesson and in these texts.
+pub fn suggested(name: &str, texts: &FaultTexts) -> String {
+    let builtin = Lesson::builtin_names();
+    let all = texts.builtin.fill(&[("known", &builtin.join(", "))]);
+    match files::alike(name, &builtin) {
+        Some(it) => texts.alike.fill(&[("name", it), ("all", &all)]),
+        None => all,
+    }
 }
 
 /// What the scene of that name or file has.
@@ -69,34 +93,36 @@ fn facts(scene: &str) -> Result<SceneFacts, Failure> {
 }
 
 impl JudgeArgs {
-    /// The lesson that is asked for, if one is.
+    /// The lesson that is asked for, if one is. What is wrong with it is said in that language.
     ///
     /// # Errors
     /// [`Failure::Input`] where there is no such lesson, it is spoiled, or has no such mode.
-    pub fn chosen(&self) -> Result<Option<(Lesson, Mode)>, Failure> {
+    pub fn chosen(&self, language: Language) -> Result<Option<(Lesson, Mode)>, Failure> {
         let lesson = self.lesson.as_deref();
-        lesson.map(|name| named(name, self.mode)).transpose()
+        lesson
+            .map(|name| named(name, self.mode, language))
+            .transpose()
     }
 }
 
-/// A judge of that lesson over a run that begins with the scene of that name and text.
+/// A judge of that lesson over a run that begins with the scene of that name and text. An error is in that language.
 ///
 /// # Errors
 /// [`Failure::Input`] where the lesson is of another scene.
 pub fn judging(
     (lesson, mode): (&Lesson, Mode),
     (scene, text): (&str, Option<&str>),
+    language: Language,
 ) -> Result<Judging, Failure> {
     let mut scenes = Scenes::default();
     let own = scenes.open(&lesson.scene)?;
     if own != scene || scenes.text(&own).as_deref() != text {
-        let of = &lesson.scene;
-        return Err(format!(
-            "--lesson {}: it is of the scene {of}, and what is judged begins with {scene}, or with another text of that: take \
-             --scene {of}, or a lesson of that scene",
-            lesson.name
-        ))
-        .input();
+        let problem = FaultTexts::of(language).other()?.other_scene.fill(&[
+            ("name", &lesson.name),
+            ("own", &lesson.scene),
+            ("scene", scene),
+        ]);
+        return Err(problem).input();
     }
     Ok(Judging::new(lesson.clone(), mode, scene))
 }
@@ -122,22 +148,21 @@ impl AskedLesson {
         }
     }
 
-    /// In what the track was made otherwise, in a few words; `None` where it went through this lesson in this mode.
-    pub fn otherwise(&self, track: &Track) -> Option<String> {
+    /// In what the track was made otherwise; `None` where it went through this lesson in this mode.
+    pub fn otherwise(&self, track: &Track) -> Option<Otherwise> {
         let made = |key: &str| track.metadata.parameters.get(key).map(String::as_str);
         let Some(name) = made(LESSON) else {
-            return Some("made without a lesson".into());
+            return Some(Otherwise::NoLesson);
         };
-        let another = || Some(format!("made with another lesson: {}", in_a_line(name)));
         if name != self.name {
-            return another();
+            return Some(Otherwise::Lesson(name.to_owned()));
         }
         if made(LESSON_HASH) != Some(&self.hash) {
-            return another().map(|text| text + " of another text");
+            return Some(Otherwise::LessonText(name.to_owned()));
         }
         let mode = made(MODE).unwrap_or_default();
         if mode != self.mode.name() {
-            return Some(format!("made in another mode: {}", in_a_line(mode)));
+            return Some(Otherwise::Mode(mode.to_owned()));
         }
         // What it says is to be of that as well.
         let other = |it: &Progress| match it {
@@ -145,6 +170,6 @@ impl AskedLesson {
             _ => false,
         };
         let other = recorded_progress(track).iter().any(other);
-        other.then(|| "what it says is of another lesson or mode".into())
+        other.then_some(Otherwise::Progress)
     }
 }

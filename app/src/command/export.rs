@@ -155,6 +155,7 @@ fn simulated(
         device: args.device.as_deref(),
         breakable: made.breakable,
         accept_truncated: args.accept_truncated || made.accept_truncated,
+        ..Ask::default()
     };
     let plan = ReplayPlan::new(&ask)?;
     let times = times(args, &plan, made.seconds)?;

@@ -61,7 +61,9 @@ pub fn run(
     emit(format, &class, table::text)?;
     match failure {
         Some(Failure::Input(_)) if class.graded > 0 && !args.strict => {
-            tracing::warn!("not graded, for the causes in the table: {}", class.bad());
+            let files = Words::of(args.language)?.grades.files;
+            let names = class.bad(&files);
+            tracing::warn!("{}", files.bad.fill(&[("names", &names)]));
             Ok(())
         }
         Some(failure) => Err(failure),
@@ -78,27 +80,27 @@ pub fn grade(
     format: Format,
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync,
 ) -> Result<(Class, Option<Failure>), Failure> {
-    let lessons = args.lesson.iter().map(|it| course::named(it, args.mode));
+    let lessons = args.lesson.iter();
+    let lessons = lessons.map(|it| course::named(it, args.mode, args.language));
     let lessons = lessons.collect::<Result<Vec<_>, _>>()?;
-    let expected = Expected::all(&args.scene, args.preset, &lessons)?;
-    let tracks = Tracks::of(&args.tracks, args.out.as_deref())?;
+    let expected = Expected::all(&args.scene, args.preset, &lessons, args.language)?;
+    let mut words = Words::of(args.language)?;
+    let files = &words.grades.files;
+    let tracks = Tracks::of(&args.tracks, args.out.as_deref(), files)?;
     if !tracks.passed_over.is_empty() {
-        let names = tracks::short(&tracks.passed_over);
-        tracing::warn!("passed over, since they are no recordings: {names}");
+        let names = tracks::short(&tracks.passed_over, files);
+        tracing::warn!("{}", files.passed_over.fill(&[("names", &names)]));
     }
     let store = args.class.as_deref().map(Store::open_existing);
     let store = store.transpose().input()?;
     if let Some(out) = &args.out {
         if let Some(name) = tracks.same_name() {
-            return Err(format!(
-                "two tracks are named {name}, and so would be their results in {}: give one of them another name",
-                out.display()
-            ))
-            .input();
+            let folder = out.display().to_string();
+            let holes = [("name", name), ("folder", &*folder)];
+            return Err(files.same_name.fill(&holes)).input();
         }
         make_folder(out)?;
     }
-    let mut words = Words::of(args.language)?;
     for (lesson, _) in expected.iter().filter_map(|it| it.lesson.as_ref()) {
         words.texts.learn(lesson);
     }
@@ -216,11 +218,9 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
     fn track(&self, named: &Named) -> Result<Read, Failure> {
         let (args, file) = (self.args, named.file.as_path());
         if files::is_absent(file) {
-            return Err(format!(
-                "{}: no such file; name recordings or folders of them",
-                file.display()
-            ))
-            .input();
+            let name = file.display().to_string();
+            let files = &self.words.grades.files;
+            return Err(files.no_file.fill(&[("name", &name)])).input();
         }
         let read = files::read(file, "track", limits::FILE);
         let bytes = read.map_err(|error| track::blame(error.into()))?;
@@ -251,16 +251,13 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         }
         let frames = track.frames.len();
         let cut = track.recovered;
-        let track = whole(&name, track, args.accept_truncated)?;
+        let track = whole(&name, track, args.accept_truncated, args.language)?;
         let truncated = cut || track.frames.len() < frames;
         let attempts = Attempt::all(recorded_events(&track));
         let otherwise = expected.otherwise(&track, &attempts);
         if otherwise.is_none() && attempts.is_empty() {
-            return Err(format!(
-                "{name}: says nothing of what happened: it is no recording of a session, or one of an older version; \
-                 `vitriol replay` finds it"
-            ))
-            .input();
+            let files = &self.words.grades.files;
+            return Err(files.no_events.fill(&[("name", &name)])).input();
         }
         let judged = |attempt: Attempt| Scored {
             score: Score::of(&attempt, &asked.rubric, &self.words.texts),

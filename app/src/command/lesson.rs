@@ -71,7 +71,8 @@ pub fn run(
     };
     let Some(name) = &args.lesson else {
         let names = Lesson::builtin_names().into_iter();
-        let lessons: Vec<Lesson> = names.map(open).collect::<Result<_, _>>()?;
+        let lessons = names.map(|name| open(name, args.language));
+        let lessons: Vec<Lesson> = lessons.collect::<Result<_, _>>()?;
         let told = lessons
             .iter()
             .map(|it| of(it, args.language, &texts))
@@ -85,17 +86,18 @@ pub fn run(
     };
     if args.toml {
         let text = Lesson::builtin_text(name);
-        let text = text.ok_or_else(|| format!("--toml: {name} is no built-in lesson"));
+        let text = text.ok_or_else(|| texts.fault.toml.fill(&[("name", name)]));
         return emit(format, &text.input()?, |text| (*text).to_owned());
     }
-    let lesson = open(name)?;
+    let lesson = open(name, args.language)?;
     let told = of(&lesson, args.language, &texts);
     if told.points != PERCENT {
-        tracing::warn!(
-            "{}: its points add up to {}; with {PERCENT} in all they are a percentage, as those of the built-in lessons are",
-            escaped(name),
-            told.points
-        );
+        let warning = texts.fault.hundred.fill(&[
+            ("name", &escaped(name)),
+            ("points", &told.points.to_string()),
+            ("hundred", &PERCENT.to_string()),
+        ]);
+        tracing::warn!("{warning}");
     }
     if let Some(film) = &args.film {
         return film::make((args, film), &lesson, format, prepare);

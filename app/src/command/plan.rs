@@ -1,5 +1,6 @@
 //! A replay before it runs: its track, scene, preset, solver and length, all checked.
 
+use vitriol_lesson::Language;
 use vitriol_run::track::key;
 use vitriol_run::{Action, Blame, Failure, Scenes, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
@@ -34,6 +35,8 @@ pub struct Ask<'a> {
     pub breakable: bool,
     /// What is whole of a track will do.
     pub accept_truncated: bool,
+    /// Language of what is wrong with a track.
+    pub language: Language,
 }
 
 impl Ask<'_> {
@@ -115,7 +118,7 @@ impl ReplayPlan {
     /// # Errors
     /// As for [`ReplayPlan::new`].
     pub fn of(ask: &Ask<'_>, track: Track) -> Result<Self, Failure> {
-        let mut track = whole(ask.track, track, ask.accept_truncated)?;
+        let mut track = whole(ask.track, track, ask.accept_truncated, ask.language)?;
         let mut scenes = Scenes::default();
         let name = scene_of(&mut scenes, ask.track, ask.scene, &track)?;
         let asked = ask.solver.is_some() || ask.budget_ms.is_some();

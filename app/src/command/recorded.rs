@@ -1,9 +1,10 @@
 //! A recording's settings for its replay, and what is asked for instead.
 
-use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
+use vitriol_lesson::{Event, Language};
+use vitriol_run::texts::Texts;
 use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET, key};
-use vitriol_run::units::{count, three_digits};
+use vitriol_run::units::{grouped, three_digits};
 use vitriol_run::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
@@ -12,42 +13,44 @@ use vitriol_xr::track::{Hole, Track, TrackMetadata};
 use crate::cli::CameraName;
 
 /// The track, if all of it is there, or what of it is whole where that is `accepted`. Else what its film shows would
-/// not be what was recorded, and nothing would report that.
-pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure> {
+/// not be what was recorded, and nothing would report that. What is wrong with it is said in that language.
+pub fn whole(
+    name: &str,
+    track: Track,
+    accepted: bool,
+    language: Language,
+) -> Result<Track, Failure> {
+    let texts = Texts::of(language)?.track;
     let first = track.frames.first().map_or(0, |frame| frame.step);
     if first > 0 {
-        let steps = match first {
-            1 => "step".to_owned(),
-            _ => count(first, "step"),
+        let template = match first {
+            1 => &texts.no_first,
+            _ => &texts.no_firsts,
         };
-        return Err(format!(
-            "{name}: lacks its first {steps}, so that nothing of it can be replayed; copy it again"
-        ))
-        .input();
+        let problem = template.fill(&[("name", name), ("steps", &grouped(first))]);
+        return Err(problem).input();
     }
     let broken_off = track.outcome.get(BROKEN_OFF).map(|cause| in_a_line(cause));
     let hole = track.holes().next();
-    let lacks = match (hole, broken_off) {
-        (Some(Hole { steps: 1, .. }), _) => "a step is missing there".to_owned(),
-        (Some(Hole { steps, .. }), _) => format!("{steps} steps are missing there"),
+    let why = match (hole, broken_off) {
+        (Some(Hole { steps: 1, .. }), _) => texts.hole.fill(&[]),
+        (Some(Hole { steps, .. }), _) => texts.holes.fill(&[("steps", &steps.to_string())]),
         (None, Some(cause)) => cause,
-        (None, None) if track.recovered => "the file was cut or its recorder stopped hard".into(),
+        (None, None) if track.recovered => texts.cut.fill(&[]),
         (None, None) => return Ok(track),
     };
     let track = track.up_to_the_first_hole();
     let end = three_digits(track.duration());
+    let (template, name) = match accepted {
+        true => (&texts.replayed, escaped(name)),
+        false => (&texts.breaks_off, name.to_owned()),
+    };
+    let text = template.fill(&[("name", &name), ("end", &end), ("why", &why)]);
     if accepted {
-        tracing::warn!(
-            "{}: is replayed up to {end} s, since {lacks}",
-            escaped(name)
-        );
+        tracing::warn!("{text}");
         return Ok(track);
     }
-    Err(format!(
-        "{name}: breaks off after {end} s, since {lacks}; a track has an end: copy it again, or replay what is whole \
-         with --accept-truncated"
-    ))
-    .input()
+    Err(text).input()
 }
 
 /// Name of the scene that was asked for, or else of the one that the track names; `scenes` has it then.

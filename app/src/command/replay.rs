@@ -158,10 +158,11 @@ fn replay(
         span,
     } = ReplayPlan::new(&ask)?;
     let head = head(args.camera, name, &track)?;
-    let lesson = args.judge.chosen()?;
+    let lesson = args.judge.chosen(args.language)?;
     let judging = lesson.as_ref().map(|(lesson, mode)| {
         let text = scenes.text(&name_of_start);
-        course::judging((lesson, *mode), (&name_of_start, text.as_deref()))
+        let scene = (name_of_start.as_str(), text.as_deref());
+        course::judging((lesson, *mode), scene, args.language)
     });
     let judging = judging.transpose()?;
     let asked = ask.otherwise(&track);
@@ -286,6 +287,7 @@ fn ask<'a>(args: &'a ReplayArgs, track: &'a str) -> Ask<'a> {
         device: args.device.as_deref(),
         breakable: args.breakable,
         accept_truncated: args.accept_truncated,
+        language: args.language,
     }
 }
 

@@ -208,7 +208,7 @@ fn course(args: &SessionArgs) -> Result<Option<Course>, Failure> {
     let Some(name) = &args.lesson else {
         return Ok(None);
     };
-    let (lesson, mode) = course::named(name, args.mode)?;
+    let (lesson, mode) = course::named(name, args.mode, args.language)?;
     Ok(Some(Course {
         lesson,
         mode,

@@ -66,7 +66,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     };
     let ((name, outcome), stand_in) = match &args.stand_in {
         Some(wearer) => {
-            let track = whole(wearer, track::load(wearer)?, true)?;
+            let track = whole(wearer, track::load(wearer)?, true, args.session.language)?;
             let gpu = device::timed(args.device.as_deref(), timestamps)?;
             if format == Format::Text {
                 let info = gpu.info();

@@ -39,5 +39,7 @@ pub use procedure::{Fault, Lesson, LessonError, Mode, Procedure, SceneFacts, Sig
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Cap, Criterion, Evidence, LeftOut, Score, ScoreLine};
 pub use table::{SPREADSHEET_MARK, TableError, incidents_csv, spreadsheet_text};
-pub use texts::{CurveTexts, FigureTexts, PlotTexts, ReportTexts, Template, Texts, TextsError};
+pub use texts::{
+    CurveTexts, FaultTexts, FigureTexts, PlotTexts, ReportTexts, Template, Texts, TextsError,
+};
 pub use words::{Sentence, Tone, sentences};

@@ -15,19 +15,23 @@ use self::template::{Part, parts};
 
 const ENGLISH: &str = concat!(
     include_str!("../texts/en.toml"),
-    include_str!("../texts/report/en.toml")
+    include_str!("../texts/report/en.toml"),
+    include_str!("../texts/fault/en.toml")
 );
 const GERMAN: &str = concat!(
     include_str!("../texts/de.toml"),
-    include_str!("../texts/report/de.toml")
+    include_str!("../texts/report/de.toml"),
+    include_str!("../texts/fault/de.toml")
 );
 const SPANISH: &str = concat!(
     include_str!("../texts/es.toml"),
-    include_str!("../texts/report/es.toml")
+    include_str!("../texts/report/es.toml"),
+    include_str!("../texts/fault/es.toml")
 );
 const CHINESE: &str = concat!(
     include_str!("../texts/zh.toml"),
-    include_str!("../texts/report/zh.toml")
+    include_str!("../texts/report/zh.toml"),
+    include_str!("../texts/fault/zh.toml")
 );
 
 /// Why a string table is refused.
@@ -115,8 +119,15 @@ section!(pub PlotTexts, "Titles and units of a report's plots.": density_error k
     temperature acid by_mass superheat superheated enthalpy bubbles ledger millionths rebuilt times);
 section!(pub CurveTexts, "Legends of a report's plots.": mean p99 maximum least most kinetic_energy spilled evaporated mist
     superheat particles lost given steam all foam closure rebuilds);
+section!(pub FaultTexts, "What is wrong with a lesson's file or with what is asked for, each with what would be right.": line field none
+    no_toml quote unread no_table no_list no_list_of_tables unknown unknown_and_missing variant missing one_of_all unfit unfit_kind
+    whole number boolean text list keys table range version no_scene modes examination count no_points no_id twice before no_end ends
+    parts deep question no_texts texts_missing texts_unknown answers empty long control brace lacks heat goggles gloves sash rod
+    thermometer cloth rinsing no_flask fixed same_flask too_much new_name from no_file other_file alike builtin toml mode other_scene
+    hundred);
 
-/// The texts of one language: its file in `run/lesson/texts`, and its file in `report` there. Each key is used and none is missing.
+/// The texts of one language: its file in `run/lesson/texts`, and its files in `report` and `fault` there. Each key is used and none is
+/// missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Texts {
@@ -158,6 +169,8 @@ pub struct Texts {
     pub plot: PlotTexts,
     /// Legends of a report's plots.
     pub curve: CurveTexts,
+    /// What is wrong with a lesson.
+    pub fault: FaultTexts,
 }
 
 impl Texts {
@@ -207,7 +220,7 @@ impl Texts {
         asked.map_or(id, String::as_str)
     }
 
-    /// Parses the text of a language's two files, one behind the other.
+    /// Parses the text of a language's files, one behind the other.
     ///
     /// # Errors
     /// [`TextsError`] if a key is missing or unknown, or a sentence's holes are not those of the English one: it would lose a number then,
@@ -231,6 +244,17 @@ impl Texts {
             return Err(TextsError::Alone { key, only });
         }
         Ok(texts)
+    }
+}
+
+impl FaultTexts {
+    /// Those of a language, without its other texts: each lesson is read with them.
+    ///
+    /// # Errors
+    /// [`TextsError::Keys`] if a key is missing or unknown, which a test rules out.
+    pub fn of(language: Language) -> Result<Self, TextsError> {
+        let (_, faults) = table(language).rsplit_once("[fault]").unwrap_or_default();
+        Ok(toml::from_str(faults)?)
     }
 }
 

@@ -1,6 +1,9 @@
 //! Texts of a class's grades: the table and its page.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use vitriol_lesson::Template;
+
+use crate::in_a_line;
 
 /// Texts of a class's grades.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -28,6 +31,9 @@ pub struct GradesTexts {
     pub broken_off: String,
     /// Texts on simulating a recording again.
     pub verified: VerifiedTexts,
+    /// What is wrong with the files of a class.
+    pub files: FilesTexts,
+    made: MadeTexts,
     unread: String,
     otherwise: String,
     counted: String,
@@ -47,6 +53,77 @@ pub struct VerifiedTexts {
     pub differs: String,
 }
 
+/// What is wrong with the files of a class.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FilesTexts {
+    /// Files that are no recordings.
+    pub passed_over: Template,
+    /// Recordings that could not be read.
+    pub bad: Template,
+    /// The first few of several names.
+    pub more: Template,
+    /// Two recordings have one name.
+    pub same_name: Template,
+    /// A folder is not there.
+    pub no_folder: Template,
+    /// A folder has no recordings.
+    pub no_recordings: Template,
+    /// A folder cannot be listed.
+    pub unlisted: Template,
+    /// A recording is not there.
+    pub no_file: Template,
+    /// A recording has no events.
+    pub no_events: Template,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MadeTexts {
+    scene: Template,
+    unnamed_scene: Template,
+    scene_text: Template,
+    no_scene_text: Template,
+    intensity: Template,
+    no_lesson: Template,
+    lesson: Template,
+    lesson_text: Template,
+    mode: Template,
+    progress: Template,
+    preset: Template,
+    no_preset: Template,
+}
+
+/// In what a recording was made otherwise than a class is graded by, with the name of what it was made with.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Otherwise {
+    /// Another scene.
+    Scene(String),
+    /// A scene without a name.
+    UnnamedScene,
+    /// A scene of that name with another text.
+    SceneText(String),
+    /// The scene's text is not in it.
+    NoSceneText,
+    /// Another intensity of boiling.
+    Intensity(String),
+    /// No lesson.
+    NoLesson,
+    /// Another lesson.
+    Lesson(String),
+    /// A lesson of that name with another text.
+    LessonText(String),
+    /// Another mode of the lesson.
+    Mode(String),
+    /// Its progress is of another lesson or mode.
+    Progress,
+    /// Another preset.
+    Preset(String),
+    /// It names no preset.
+    NoPreset,
+}
+
 impl GradesTexts {
     /// A recording could not be read, for this cause.
     pub fn unread(&self, why: &str) -> String {
@@ -54,8 +131,24 @@ impl GradesTexts {
     }
 
     /// A recording is not graded, for this cause.
-    pub fn otherwise(&self, why: &str) -> String {
-        self.otherwise.replace("{why}", why)
+    pub fn otherwise(&self, why: &Otherwise) -> String {
+        let made = &self.made;
+        let (template, name) = match why {
+            Otherwise::Scene(name) => (&made.scene, name.as_str()),
+            Otherwise::UnnamedScene => (&made.unnamed_scene, ""),
+            Otherwise::SceneText(name) => (&made.scene_text, name.as_str()),
+            Otherwise::NoSceneText => (&made.no_scene_text, ""),
+            Otherwise::Intensity(k_v) => (&made.intensity, k_v.as_str()),
+            Otherwise::NoLesson => (&made.no_lesson, ""),
+            Otherwise::Lesson(name) => (&made.lesson, name.as_str()),
+            Otherwise::LessonText(name) => (&made.lesson_text, name.as_str()),
+            Otherwise::Mode(name) => (&made.mode, name.as_str()),
+            Otherwise::Progress => (&made.progress, ""),
+            Otherwise::Preset(name) => (&made.preset, name.as_str()),
+            Otherwise::NoPreset => (&made.no_preset, ""),
+        };
+        let why = template.fill(&[("name", &in_a_line(name))]);
+        self.otherwise.replace("{why}", &why)
     }
 
     /// How many recordings were graded, were made otherwise, and could not be read.

@@ -2,10 +2,11 @@
 //! it, since a student could have diluted "acid" in a scene of the same name.
 
 use serde::{Deserialize, Serialize};
-use vitriol_lesson::{Attempt, Lesson, Mode, Rubric};
+use vitriol_lesson::{Attempt, Language, Lesson, Mode, Rubric};
 use vitriol_record::Uuid;
+use vitriol_run::texts::Otherwise;
 use vitriol_run::track::{LESSON, PRESET};
-use vitriol_run::{Action, Blame, Failure, Scenes, in_a_line};
+use vitriol_run::{Action, Blame, Failure, Scenes};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::track::{Track, TrackMetadata};
 
@@ -43,7 +44,7 @@ pub struct Asked {
 
 impl Expected {
     /// What tracks may be made with: these scenes, by name or file, of which some have a lesson. Without scenes those of the lessons;
-    /// without lessons all built-in ones.
+    /// without lessons all built-in ones. An error with a lesson is in that language.
     ///
     /// # Errors
     /// [`Failure::Input`] where there is no such scene, or something is wrong with it, or a lesson is of another one.
@@ -51,6 +52,7 @@ impl Expected {
         scenes: &[String],
         preset: Option<Preset>,
         lessons: &[(Lesson, Mode)],
+        language: Language,
     ) -> Result<Vec<Self>, Failure> {
         let named: Vec<&str> = match (scenes, lessons) {
             ([], []) => Scene::builtin_names(),
@@ -61,7 +63,7 @@ impl Expected {
         let plain = plain.collect::<Result<Vec<_>, _>>()?;
         let mut all: Vec<Self> = Vec::new();
         for lesson in lessons {
-            let tried = plain.iter().map(|it| it.with_lesson(lesson));
+            let tried = plain.iter().map(|it| it.with_lesson(lesson, language));
             all.extend(tried.reduce(Result::or).transpose()?);
         }
         for it in plain {
@@ -91,11 +93,13 @@ impl Expected {
         })
     }
 
-    fn with_lesson(&self, (lesson, mode): &(Lesson, Mode)) -> Result<Self, Failure> {
-        course::judging(
-            (lesson, *mode),
-            (&self.asked.scene, Some(self.text.as_str())),
-        )?;
+    fn with_lesson(
+        &self,
+        (lesson, mode): &(Lesson, Mode),
+        language: Language,
+    ) -> Result<Self, Failure> {
+        let scene = (self.asked.scene.as_str(), Some(self.text.as_str()));
+        course::judging((lesson, *mode), scene, language)?;
         let mut taught = self.clone();
         taught.asked.rubric = lesson.rubric();
         taught.asked.lesson = Some(AskedLesson::of(lesson, *mode));
@@ -113,8 +117,8 @@ impl Expected {
         found.or(all.first())
     }
 
-    /// In what the track was made otherwise, in a few words; `None` where nothing is known.
-    pub fn otherwise(&self, track: &Track, attempts: &[Attempt]) -> Option<String> {
+    /// In what the track was made otherwise; `None` where nothing is known.
+    pub fn otherwise(&self, track: &Track, attempts: &[Attempt]) -> Option<Otherwise> {
         let (asked, made) = (&self.asked, &track.metadata);
         let actions: Vec<Action> = actions(track).collect();
         let brought_up = actions.iter().filter_map(Action::brings_up);
@@ -122,28 +126,21 @@ impl Expected {
             .chain(brought_up)
             .chain(attempts.iter().map(|it| it.scene.as_str()));
         if let Some(other) = scenes.find(|name| *name != asked.scene) {
-            let other = if other.is_empty() {
-                "one without a name".into()
-            } else {
-                in_a_line(other)
-            };
-            return Some(format!("made with another scene: {other}"));
+            return Some(match other {
+                "" => Otherwise::UnnamedScene,
+                other => Otherwise::Scene(other.into()),
+            });
         }
         match made.scenes.get(&asked.scene) {
             Some(text) if *text == self.text => {}
-            Some(_) => {
-                let name = in_a_line(&asked.scene);
-                return Some(format!("made with another scene: {name} of another text"));
-            }
-            None => {
-                return Some("made with a scene whose text it does not carry".into());
-            }
+            Some(_) => return Some(Otherwise::SceneText(asked.scene.clone())),
+            None => return Some(Otherwise::NoSceneText),
         }
         if let Some(k_v) = actions.iter().find_map(|it| match it {
             Action::Intensity(k_v) => Some(k_v),
             _ => None,
         }) {
-            return Some(format!("made with another k_v: {k_v}"));
+            return Some(Otherwise::Intensity(k_v.to_string()));
         }
         let lesson = asked.lesson.as_ref();
         if let Some(otherwise) = lesson.and_then(|it| it.otherwise(track)) {
@@ -151,10 +148,8 @@ impl Expected {
         }
         let preset = made.parameters.get(PRESET);
         match (&asked.preset, preset) {
-            (Some(asked), Some(made)) if asked != made => {
-                Some(format!("made with another preset: {}", in_a_line(made)))
-            }
-            (Some(_), None) => Some("made with a preset that it does not name".into()),
+            (Some(asked), Some(made)) if asked != made => Some(Otherwise::Preset(made.clone())),
+            (Some(_), None) => Some(Otherwise::NoPreset),
             _ => None,
         }
     }

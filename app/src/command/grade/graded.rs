@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_run::output::write_over;
+use vitriol_run::texts::Otherwise;
 use vitriol_run::{Blame, Failure};
 
 use super::agreement::Tolerance;
@@ -14,7 +15,7 @@ use super::expected::Asked;
 use super::verify::Verified;
 
 /// The version of [`Graded`]'s layout. It goes up where a field goes, or means something else.
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
 
 /// Program and version: another one may find and score otherwise.
 const PROGRAM: &str = concat!("vitriol ", env!("CARGO_PKG_VERSION"));
@@ -47,8 +48,8 @@ pub struct Graded {
 pub enum Found {
     /// What its student did.
     Attempts(Vec<Scored>),
-    /// It was made otherwise than was asked for, in these words, and is not graded.
-    Otherwise(String),
+    /// It was made otherwise than was asked for, and is not graded.
+    Otherwise(Otherwise),
 }
 
 /// An attempt and its points.

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_lesson::{Criterion, Evidence, SPREADSHEET_MARK, What, spreadsheet_text};
+use vitriol_run::texts::FilesTexts;
 use vitriol_run::{Blame, Failure, in_a_line};
 
 use super::graded::{Found, Graded};
@@ -186,9 +187,9 @@ impl Class {
     }
 
     /// The first few of the tracks that cannot be graded, in a line.
-    pub fn bad(&self) -> String {
+    pub fn bad(&self, texts: &FilesTexts) -> String {
         let bad = self.lines.iter().filter(|it| it.status == Status::Failed);
-        tracks::short(&bad.map(|it| it.track.clone()).collect::<Vec<_>>())
+        tracks::short(&bad.map(|it| it.track.clone()).collect::<Vec<_>>(), texts)
     }
 
     /// The number of tracks whose recording differs from its simulation.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use vitriol_run::texts::FilesTexts;
 use vitriol_run::{Blame, Failure, in_a_line};
 use vitriol_xr::files;
 
@@ -37,21 +38,18 @@ pub struct Named {
 }
 
 impl Tracks {
-    /// The files that are named, and those in the folders that are. What an earlier call left in `out` is no part of a class.
+    /// The files that are named, and those in the folders that are. What an earlier call left in `out` is no part of a class. What is
+    /// wrong with them is said in these texts.
     ///
     /// # Errors
     /// [`Failure::Input`] where a folder is not there or has no recordings, [`Failure::Other`] where it cannot be listed.
-    pub fn of(named: &[PathBuf], out: Option<&Path>) -> Result<Self, Failure> {
+    pub fn of(named: &[PathBuf], out: Option<&Path>, texts: &FilesTexts) -> Result<Self, Failure> {
         let mut tracks = Self::default();
         let out = out.and_then(|it| it.canonicalize().ok());
         for path in named {
             // A recording that is not there is a line of the table, as another bad file is.
             if files::is_absent(path) && !is_track(path) {
-                return Err(format!(
-                    "{}: no such folder; name one with recordings, or recordings themselves, which end in .mcap",
-                    path.display()
-                ))
-                .input();
+                return Err(texts.no_folder.fill(&[("name", &shown(path))])).input();
             }
             if !path.is_dir() {
                 tracks.all.push(Named {
@@ -62,25 +60,25 @@ impl Tracks {
                 continue;
             }
             let before = tracks.all.len();
-            tracks.list(path, &[], out.as_deref()).other()?;
+            tracks.list(path, &[], out.as_deref(), texts).other()?;
             if tracks.all.len() == before {
-                return Err(format!(
-                    "{}: holds no recordings; name a folder with files that end in .mcap, or such files",
-                    path.display()
-                ))
-                .input();
+                return Err(texts.no_recordings.fill(&[("name", &shown(path))])).input();
             }
         }
         Ok(tracks)
     }
 
     /// Adds what is in a folder that lies in these folders of the class.
-    fn list(&mut self, folder: &Path, above: &[String], out: Option<&Path>) -> Result<(), String> {
+    fn list(
+        &mut self,
+        folder: &Path,
+        above: &[String],
+        out: Option<&Path>,
+        texts: &FilesTexts,
+    ) -> Result<(), String> {
         let unlisted = |error: std::io::Error| {
-            format!(
-                "{}: cannot be listed: {error}; may you read it?",
-                folder.display()
-            )
+            let (name, why) = (shown(folder), error.to_string());
+            (texts.unlisted).fill(&[("name", &name), ("why", &why)])
         };
         let mut inside = Vec::new();
         for entry in fs::read_dir(folder).map_err(unlisted)? {
@@ -95,7 +93,7 @@ impl Tracks {
                 continue;
             }
             if file.is_dir() {
-                self.enter(&file, above, name, out);
+                self.enter(&file, (above, name), out, texts);
             } else if is_track(&file) {
                 let mut parts = above.to_vec();
                 parts.push(stem(&file.display().to_string()));
@@ -112,7 +110,13 @@ impl Tracks {
     }
 
     /// Adds what is in the folder of that name; one that cannot be looked into stops no other.
-    fn enter(&mut self, folder: &Path, above: &[String], name: String, out: Option<&Path>) {
+    fn enter(
+        &mut self,
+        folder: &Path,
+        (above, name): (&[String], String),
+        out: Option<&Path>,
+        texts: &FilesTexts,
+    ) {
         if out.is_some() && folder.canonicalize().ok().as_deref() == out {
             return;
         }
@@ -123,7 +127,7 @@ impl Tracks {
         }
         let mut within = above.to_vec();
         within.push(name);
-        if let Err(error) = self.list(folder, &within, out) {
+        if let Err(error) = self.list(folder, &within, out, texts) {
             self.passed_over.push(error);
         }
     }
@@ -137,13 +141,17 @@ impl Tracks {
     }
 }
 
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
+
 /// The first few, in a line.
-pub fn short(names: &[String]) -> String {
+pub fn short(names: &[String], texts: &FilesTexts) -> String {
     let shown: Vec<String> = names.iter().take(NAMED).map(|it| in_a_line(it)).collect();
     let shown = shown.join(", ");
     match names.len().saturating_sub(NAMED) {
         0 => shown,
-        more => format!("{shown} and {more} more"),
+        more => (texts.more).fill(&[("names", &shown), ("number", &more.to_string())]),
     }
 }
 

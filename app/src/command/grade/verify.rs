@@ -81,6 +81,7 @@ impl Verified {
             preset: args.preset,
             device: args.device.as_deref(),
             accept_truncated: args.accept_truncated,
+            language: args.language,
             ..Ask::default()
         };
         let (events, progress) = (recorded_events(&track), recorded_progress(&track));
@@ -98,7 +99,7 @@ impl Verified {
         if let Some((lesson, mode)) = &expected.lesson {
             let text = plan.scenes.text(&plan.name);
             let scene = (plan.name.as_str(), text.as_deref());
-            experiment.judge(course::judging((lesson, *mode), scene)?);
+            experiment.judge(course::judging((lesson, *mode), scene, args.language)?);
         }
         let mut observer = Observer::new(plan.span, Vec::new(), bars.of(&name, plan.span));
         let mut source = TrackSource::new(plan.track);

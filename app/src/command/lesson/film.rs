@@ -64,6 +64,7 @@ pub fn make(
         scene: Some(&lesson.scene),
         preset: args.preset,
         device: args.device.as_deref(),
+        language: args.language,
         ..Ask::default()
     };
     let plan = ReplayPlan::new(&ask)?;
@@ -91,7 +92,7 @@ pub fn make(
     })?;
     let text = plan.scenes.text(&plan.name);
     let scene = (plan.name.as_str(), text.as_deref());
-    experiment.judge(course::judging((lesson, MODE), scene)?);
+    experiment.judge(course::judging((lesson, MODE), scene, args.language)?);
 
     output::make_folder(folder)?;
     let film = Film::with_sound(path, FILM_SIZE, FILM_FPS).other()?;

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use serde::Serialize;
-use vitriol_lesson::{Lesson, LessonError};
+use vitriol_lesson::{FaultTexts, Lesson, LessonError};
 use vitriol_run::output::{new_file, write_new};
 use vitriol_run::{Blame, Failure, Format, emit};
-use vitriol_xr::files;
 
 use crate::cli::NewLessonArgs;
+use crate::command::course::suggested;
 
 /// What is printed of a new lesson.
 #[derive(Debug, Serialize)]
@@ -30,8 +30,10 @@ pub fn write(args: &NewLessonArgs, format: Format) -> Result<(), Failure> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let text = match Lesson::template(name, from, args.language) {
         Err(LessonError::NotFound { .. }) => {
-            let known = files::suggested(from, &Lesson::builtin_names());
-            return Err(format!("--from {from:?}: no built-in lesson; {known}")).input();
+            let texts = FaultTexts::of(args.language).other()?;
+            let meant = suggested(from, &texts);
+            let name = format!("{from:?}");
+            return Err((texts.from).fill(&[("name", &name), ("meant", &meant)])).input();
         }
         made => made.input()?,
     };

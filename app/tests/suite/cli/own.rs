@@ -152,6 +152,13 @@ fn four_faults_are_four_lines() {
         );
         assert!(told.contains(right), "{told}");
     }
+    let told = vitriol(here, &["lesson", "own.toml", "--language", "de"]);
+    let german = text(&told.stderr).trim_start_matches("vitriol: ");
+    assert_eq!(german.lines().count(), faults.len(), "{german}");
+    assert!(
+        german.lines().all(|it| it.starts_with("own.toml: Zeile ")),
+        "{german}"
+    );
 }
 
 #[test]

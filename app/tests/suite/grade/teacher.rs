@@ -108,6 +108,73 @@ fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
     assert_eq!(none.status.code(), Some(2));
 }
 
+/// Why a file is passed over, not read or not graded is said in the teacher's language, also of a result that an earlier call left.
+#[test]
+fn what_is_not_graded_is_told_in_the_teachers_language() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    unpack(here);
+    let short = here.join("class/Short");
+    fs::create_dir_all(&short).unwrap();
+    put(&short, "pour.mcap", &recording(&events(0.0)));
+    let whole = fs::read(short.join("pour.mcap")).unwrap();
+    fs::write(short.join("pour.mcap"), &whole[..whole.len() - 20]).unwrap();
+    // Of each language what is said of the essay, of the bad files, of another scene and of the short recording.
+    let sentences = [
+        (
+            "en",
+            [
+                "passed over, since they are no recordings",
+                "not graded, for the causes",
+                "made with another scene: water-into-acid",
+                "breaks off after",
+            ],
+        ),
+        (
+            "de",
+            [
+                "übergangen, da es keine Aufnahmen sind",
+                "nicht bewertet, Gründe siehe Tabelle",
+                "mit einer anderen Szene aufgenommen: water-into-acid",
+                "bricht nach",
+            ],
+        ),
+        (
+            "es",
+            [
+                "omitidos, porque no son grabaciones",
+                "sin calificar, por las causas",
+                "hecha con otra escena: water-into-acid",
+                "se interrumpe después de",
+            ],
+        ),
+        (
+            "zh",
+            [
+                "已跳过，因为不是录制文件",
+                "未评分，原因见表格",
+                "录制时用的是另一个场景：water-into-acid",
+                "之后中断",
+            ],
+        ),
+    ];
+    for (nth, (language, _)) in sentences.iter().enumerate() {
+        let scenes = ["--scene", "acid-into-water", "--scene", "hot-acid"];
+        let rest = ["--out", "out", "--json", "--language", *language];
+        let output = VITRIOL.run(here, &[&["grade", "class"][..], &scenes, &rest].concat());
+        let class: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(class["taken"], if nth == 0 { 0 } else { 4 });
+        let warned = String::from_utf8(output.stderr).unwrap();
+        let told = format!("{warned}{}", class["lines"]);
+        for (of, parts) in &sentences {
+            for part in parts {
+                let is_own = of == language;
+                assert_eq!(told.contains(part), is_own, "{language}: {part}: {told}");
+            }
+        }
+    }
+}
+
 /// Thirty students, of whom each other one spilt something, in five scenes and with programs in three languages; the recordings of two
 /// were cut.
 fn thirty(here: &Path) {

@@ -341,16 +341,17 @@ fn range(
         }
     }
     match ends {
-        [None, None] => problems.add(
-            field,
-            format!("has no end; give at_least_{unit}, at_most_{unit} or both"),
-        ),
-        [Some(least), Some(most)] if least > most => problems.add(
-            field,
-            format!(
-                "at_least_{unit} {least} is above at_most_{unit} {most}; take them the other way"
-            ),
-        ),
+        [None, None] => {
+            let [least, most] = ["at_least", "at_most"].map(|it| format!("{it}_{unit}"));
+            let holes = [("least", &*least), ("most", &*most)];
+            problems.add(field, problems.texts.no_end.fill(&holes));
+        }
+        [Some(least), Some(most)] if least > most => {
+            let least = format!("at_least_{unit} {least}");
+            let most = format!("at_most_{unit} {most}");
+            let holes = [("least", &*least), ("most", &*most)];
+            problems.add(field, problems.texts.ends.fill(&holes));
+        }
         _ => {}
     }
 }
@@ -366,11 +367,13 @@ impl Condition {
         match self {
             Self::All(parts) | Self::Any(parts) => {
                 if parts.is_empty() || parts.len() > MOST_PARTS {
-                    let problem = format!("has {} parts; give 1 to {MOST_PARTS}", parts.len());
+                    let (count, most) = (parts.len().to_string(), MOST_PARTS.to_string());
+                    let holes = [("count", &*count), ("most", &*most)];
+                    let problem = problems.texts.parts.fill(&holes);
                     return problems.add(field, problem);
                 }
                 if depth + 1 >= DEEPEST {
-                    let problem = format!("more than {DEEPEST} deep; make two steps of it");
+                    let problem = (problems.texts.deep).fill(&[("most", &DEEPEST.to_string())]);
                     return problems.add(field, problem);
                 }
                 for (index, part) in parts.iter().enumerate() {
@@ -417,8 +420,7 @@ impl Condition {
                 problems.within(&named("at_least_ml"), it.at_least_ml, LEAST_ML, MOST_ML);
             }
             Self::Answered(_) if depth > 0 => {
-                let problem = "a question is a part of `all` or `any`; make a step of it";
-                problems.add(field, problem);
+                problems.add(field, problems.texts.question.text());
             }
             Self::Answered(it) => {
                 let (answers, most) = (f64::from(it.answers), f64::from(MOST_ANSWERS));

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::texts::TextsError;
+use crate::texts::{FaultTexts, TextsError};
 
 /// Why a lesson could not be loaded, or does not fit its scene. Each message names the file, its line and field, and what would be right.
 #[derive(Debug, thiserror::Error)]
@@ -15,16 +15,9 @@ pub enum LessonError {
         /// The built-in names.
         known: String,
     },
-    /// A new lesson cannot have that name.
-    #[error(
-        "lesson {name:?}: no name for a new one; take 1 to 40 of a to z, 0 to 9 and -, and none of the built-in {known}"
-    )]
-    NewName {
-        /// The name that was asked for.
-        name: String,
-        /// The built-in names.
-        known: String,
-    },
+    /// A new lesson cannot have that name: says so in the language that was asked for.
+    #[error("{0}")]
+    NewName(String),
     /// Not TOML, a key that is missing or unknown, or a value that makes no sense or does not fit the scene: a line for each.
     #[error("{}", lines(.file, .faults))]
     Faulty {
@@ -45,18 +38,34 @@ pub struct Fault {
     pub line: usize,
     /// Path of the field, such as `step[1].points`, with indices from 0; empty where the text is no TOML.
     pub field: String,
-    /// What is wrong with it and what would be right.
-    pub problem: String,
+    /// In a line, in the language that was asked for: where it is, what is wrong and what would be right.
+    pub text: String,
+}
+
+impl Fault {
+    /// The fault of a field of that line.
+    pub(super) fn new(texts: &FaultTexts, line: usize, field: &str, problem: &str) -> Self {
+        let template = match field {
+            "" => &texts.line,
+            _ => &texts.field,
+        };
+        let text = template.fill(&[
+            ("line", &line.to_string()),
+            ("field", &counted_from_one(field)),
+            ("problem", problem),
+        ]);
+        Self {
+            line,
+            field: field.to_owned(),
+            // A key of the file may have a line break; a fault is one line.
+            text: text.replace(['\n', '\r'], " "),
+        }
+    }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: ", self.line)?;
-        if !self.field.is_empty() {
-            write!(f, "{}: ", counted_from_one(&self.field))?;
-        }
-        // A key of the file may have a line break; a fault is one line.
-        f.write_str(&self.problem.replace(['\n', '\r'], " "))
+        f.write_str(&self.text)
     }
 }
 
@@ -93,32 +102,48 @@ pub(super) struct Problem {
     pub problem: String,
 }
 
-/// The problems of a lesson.
-#[derive(Debug, Default)]
-pub(super) struct Problems(pub Vec<Problem>);
+/// The problems of a lesson, and the sentences that say them.
+#[derive(Debug)]
+pub(super) struct Problems {
+    pub texts: FaultTexts,
+    pub found: Vec<Problem>,
+}
 
 impl Problems {
+    /// None so far.
+    pub fn new(texts: FaultTexts) -> Self {
+        Self {
+            texts,
+            found: Vec::new(),
+        }
+    }
+
     /// Adds a problem of a field.
-    pub fn add(&mut self, field: impl Into<String>, problem: impl ToString) {
-        self.0.push(Problem {
+    pub fn add(&mut self, field: impl Into<String>, problem: String) {
+        self.found.push(Problem {
             field: field.into(),
-            problem: problem.to_string(),
+            problem,
         });
     }
 
     /// Adds one where a value is not a number from `least` to `most`.
     pub fn within(&mut self, field: &str, value: f64, least: f64, most: f64) {
         if !value.is_finite() || !(least..=most).contains(&value) {
-            self.add(field, format!("{value} is not from {least} to {most}"));
+            let problem = self.texts.range.fill(&[
+                ("value", &value.to_string()),
+                ("least", &least.to_string()),
+                ("most", &most.to_string()),
+            ]);
+            self.add(field, problem);
         }
     }
 }
 
 /// Formats names as a list in a message.
-pub(super) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(super) fn listed<'a>(texts: &FaultTexts, names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<String> = names.into_iter().map(|name| format!("{name:?}")).collect();
     if names.is_empty() {
-        return "none".to_owned();
+        return texts.none.text();
     }
     names.join(", ")
 }

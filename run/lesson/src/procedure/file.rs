@@ -15,7 +15,7 @@ use super::words::LessonTexts;
 use crate::caps::{Caps, Danger, WHOLE};
 use crate::language::Language;
 use crate::rubric::Rubric;
-use crate::texts::Texts;
+use crate::texts::{FaultTexts, Texts};
 
 /// Version of the file format that is read here.
 pub(super) const VERSION: u32 = 1;
@@ -24,7 +24,7 @@ pub(super) const MOST: usize = 50;
 /// Most points of a step or rule.
 const MOST_POINTS: u32 = 1000;
 /// Longest id or name, characters.
-const LONGEST_ID: usize = 40;
+pub(super) const LONGEST_ID: usize = 40;
 /// Longest time that a step may state, s.
 const LONGEST_TIME: f64 = 3600.0;
 
@@ -122,27 +122,27 @@ impl Lesson {
         Self::parse(find(name)?, &format!("{name}.toml"))
     }
 
-    /// Parses a lesson from its TOML `text`; `file` is its name in messages. A lesson without texts that has the name of a built-in one
-    /// gets that one's texts.
+    /// Parses a lesson from its TOML `text`; `file` is its name in messages, which are in English. A lesson without texts that has the name
+    /// of a built-in one gets that one's texts.
     ///
     /// # Errors
     /// [`LessonError::Faulty`] with each fault: where the text is not TOML, a key is missing or unknown, a value is out of its range, or a
     /// language is not complete.
     pub fn parse(text: &str, file: &str) -> Result<Self, LessonError> {
-        Self::parse_for(text, file, |_| Ok(None))
+        Self::parse_for(text, (file, Language::En), |_| Ok(None))
     }
 
-    /// As [`Lesson::parse`], and checks that the lesson's scene has everything that the lesson asks for. `facts` gives the properties of
-    /// the scene of a name, or why there are none; `None`: the scene is not checked.
+    /// As [`Lesson::parse`], with messages in that language, and checks that the lesson's scene has everything that the lesson asks for.
+    /// `facts` gives the properties of the scene of a name, or why there are none; `None`: the scene is not checked.
     ///
     /// # Errors
     /// [`LessonError::Faulty`] with each fault of the file and of what the scene lacks.
     pub fn parse_for(
         text: &str,
-        file: &str,
+        (file, language): (&str, Language),
         facts: impl FnOnce(&str) -> Result<Option<SceneFacts>, String>,
     ) -> Result<Self, LessonError> {
-        let mut source = Source::new(text, file)?;
+        let mut source = Source::new(text, file, FaultTexts::of(language)?)?;
         let mut raw = read(&mut source);
         let own = source.has("texts");
         if !own && Self::builtin_text(&raw.name).is_some() {
@@ -152,13 +152,16 @@ impl Lesson {
                 }
             }
         }
-        let mut problems = Problems::default();
+        let mut problems = Problems::new(source.texts.clone());
         check(&mut problems, &raw);
         if !source.is_unread("scene") && !raw.scene.trim().is_empty() {
             match facts(&raw.scene) {
                 Ok(Some(facts)) => fits(&mut problems, (&raw.steps, &raw.rules), &facts),
                 Ok(None) => {}
-                Err(problem) => problems.add("scene", problem),
+                Err(why) => {
+                    let problem = problems.texts.unread.fill(&[("why", &why)]);
+                    problems.add("scene", problem);
+                }
             }
         }
         // Without a name it is not known whether built-in texts were meant; a language that is not known is told already.
@@ -168,8 +171,7 @@ impl Lesson {
             source.is_unread("name")
         };
         if raw.texts.is_empty() && !told {
-            let problem = "missing; a lesson has texts in one language or more, such as [texts.de]";
-            problems.add("texts", problem);
+            problems.add("texts", problems.texts.no_texts.text());
         }
         source.add(problems);
         match raw.texts.pop_first() {
@@ -255,23 +257,21 @@ fn fits(problems: &mut Problems, (steps, rules): (&[Step], &[Rule]), facts: &Sce
 /// Checks the values of the file.
 fn check(problems: &mut Problems, raw: &LessonFile) {
     if raw.version != VERSION {
-        let version = raw.version;
-        let problem = format!("{version} is not known here; this program reads {VERSION}");
-        problems.add("version", problem);
+        let (version, known) = (raw.version.to_string(), VERSION.to_string());
+        let holes = [("version", &*version), ("known", &*known)];
+        problems.add("version", problems.texts.version.fill(&holes));
     }
     check_id(problems, "name", &raw.name);
     if raw.scene.trim().is_empty() {
-        problems.add("scene", "empty; name a scene");
+        problems.add("scene", problems.texts.no_scene.text());
     }
     let modes: BTreeSet<Mode> = raw.modes.iter().copied().collect();
     if modes.is_empty() || modes.len() < raw.modes.len() {
-        let problem = "has none, or one twice; take of \"guided\", \"free\", \"examination\" each that it allows, its usual one first";
-        problems.add("modes", problem);
+        problems.add("modes", problems.texts.modes.text());
     }
     let asks = raw.steps.iter().any(|it| it.condition.question().is_some());
     if asks && modes.contains(&Mode::Examination) {
-        let problem = "has \"examination\", in which no step is shown; take it out, or take the lesson's questions out";
-        problems.add("modes", problem);
+        problems.add("modes", problems.texts.examination.text());
     }
     for (name, most) in raw.caps.named() {
         let field = format!("caps.{name}");
@@ -283,7 +283,7 @@ fn check(problems: &mut Problems, raw: &LessonFile) {
         ids.push(step.id.as_str());
     }
     if raw.steps.iter().all(|step| step.points == 0) {
-        problems.add("step[0].points", "no step has points; give one some");
+        problems.add("step[0].points", problems.texts.no_points.text());
     }
     for (index, rule) in raw.rules.iter().enumerate() {
         let field = |name: &str| format!("rule[{index}].{name}");
@@ -322,9 +322,10 @@ fn check_step(problems: &mut Problems, field: &str, step: &Step, before: &[&str]
         .iter()
         .filter(|id| !before.contains(&id.as_str()));
     for id in unknown.take(MOST) {
-        let known = listed(before.iter().copied());
-        let problem = format!("no step before this one is {id:?}; those are {known}");
-        problems.add(named("after"), problem);
+        let known = listed(&problems.texts, before.iter().copied());
+        let name = format!("{id:?}");
+        let holes = [("name", &*name), ("known", &*known)];
+        problems.add(named("after"), problems.texts.before.fill(&holes));
     }
     let condition = step.condition.field(&named("condition"));
     step.condition.check(problems, &condition);
@@ -340,15 +341,16 @@ fn check_points(problems: &mut Problems, field: &str, points: u32) {
 fn check_new_id(problems: &mut Problems, field: &str, id: &str, before: &[&str]) {
     check_id(problems, field, id);
     if before.contains(&id) {
-        let problem = format!("{id:?} is there before; ids of steps and rules differ");
+        let problem = (problems.texts.twice).fill(&[("name", &format!("{id:?}"))]);
         problems.add(field, problem);
     }
 }
 
 fn check_id(problems: &mut Problems, field: &str, id: &str) {
     if !is_id(id) {
-        let problem = format!("{id:?} is no name; take 1 to {LONGEST_ID} of a to z, 0 to 9 and -");
-        problems.add(field, problem);
+        let (name, most) = (format!("{id:?}"), LONGEST_ID.to_string());
+        let holes = [("name", &*name), ("most", &*most)];
+        problems.add(field, problems.texts.no_id.fill(&holes));
     }
 }
 

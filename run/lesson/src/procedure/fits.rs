@@ -3,6 +3,7 @@
 use super::condition::{Condition, Keep};
 use super::error::{Problems, listed};
 use super::sight::SceneFacts;
+use crate::texts::{FaultTexts, Template};
 
 /// mL per m³.
 const ML: f64 = 1e6;
@@ -20,9 +21,14 @@ impl Fit<'_> {
         if flasks.any(|flask| flask.name == name) {
             return true;
         }
-        let known = listed(self.facts.flasks.iter().map(|flask| flask.name.as_str()));
-        let scene = &self.facts.name;
-        let problem = format!("the scene {scene:?} has no flask {name:?}; take one of {known}");
+        let texts = &self.problems.texts;
+        let flasks = self.facts.flasks.iter();
+        let known = listed(texts, flasks.map(|flask| flask.name.as_str()));
+        let problem = texts.no_flask.fill(&[
+            ("scene", &self.scene()),
+            ("flask", &format!("{name:?}")),
+            ("known", &known),
+        ]);
         self.problems.add(field, problem);
         false
     }
@@ -35,17 +41,18 @@ impl Fit<'_> {
         if lifted().any(|flask| flask.name == name) {
             return;
         }
-        let known = listed(lifted().map(|flask| flask.name.as_str()));
-        let problem =
-            format!("{name:?} is fixed, and cannot be lifted; those that can are {known}");
+        let texts = &self.problems.texts;
+        let known = listed(texts, lifted().map(|flask| flask.name.as_str()));
+        let flask = format!("{name:?}");
+        let problem = (texts.fixed).fill(&[("flask", &flask), ("known", &known)]);
         self.problems.add(field, problem);
     }
 
-    fn has(&mut self, field: &str, there: bool, what: &str) {
+    fn has(&mut self, field: &str, there: bool, what: fn(&FaultTexts) -> &Template) {
         if !there {
-            let scene = &self.facts.name;
-            let problem =
-                format!("the scene {scene:?} has no {what}; take it out, or take a scene that has");
+            let texts = &self.problems.texts;
+            let what = what(texts).text();
+            let problem = (texts.lacks).fill(&[("scene", &self.scene()), ("what", &what)]);
             self.problems.add(field, problem);
         }
     }
@@ -53,17 +60,20 @@ impl Fit<'_> {
     fn as_much(&mut self, field: &str, ml: f64) {
         let most = self.facts.liquid_m3 * ML;
         if ml > most {
-            let scene = &self.facts.name;
-            let problem = format!(
-                "the scene {scene:?} has {most:.0} mL in all, and this is {ml}; take {most:.0} at most"
-            );
+            let problem = self.problems.texts.too_much.fill(&[
+                ("scene", &self.scene()),
+                ("most", &format!("{most:.0}")),
+                ("volume", &ml.to_string()),
+            ]);
             self.problems.add(field, problem);
         }
     }
-}
 
-/// What a scene needs for temperatures, as messages name it.
-const HEAT: &str = "heat in its `model`";
+    /// The scene's name, in quotes.
+    fn scene(&self) -> String {
+        format!("{:?}", self.facts.name)
+    }
+}
 
 impl Condition {
     /// Checks that the scene has what this condition needs.
@@ -81,7 +91,7 @@ impl Condition {
                 fit.flask(&named("from"), &it.from);
                 fit.flask(&named("into"), &it.into);
                 if it.from == it.into {
-                    let problem = "the flask that it is poured from; name another";
+                    let problem = fit.problems.texts.same_flask.text();
                     fit.problems.add(named("into"), problem);
                 }
                 fit.as_much(&named("at_least_ml"), it.at_least_ml);
@@ -92,21 +102,21 @@ impl Condition {
             }
             Self::Temperature(it) => {
                 fit.flask(&named("flask"), &it.flask);
-                fit.has(field, facts.heat, HEAT);
+                fit.has(field, facts.heat, |it| &it.heat);
             }
-            Self::Goggles(_) => fit.has(field, facts.goggles, "goggles to put on or take off"),
-            Self::Gloves(_) => fit.has(field, facts.gloves, "gloves to put on or take off"),
-            Self::Sash(_) => fit.has(field, facts.sash, "hood with a sash"),
+            Self::Goggles(_) => fit.has(field, facts.goggles, |it| &it.goggles),
+            Self::Gloves(_) => fit.has(field, facts.gloves, |it| &it.gloves),
+            Self::Sash(_) => fit.has(field, facts.sash, |it| &it.sash),
             Self::Stirred(it) => {
                 fit.flask(&named("flask"), &it.flask);
-                fit.has(field, facts.rod, "stirring rod");
+                fit.has(field, facts.rod, |it| &it.rod);
             }
             Self::Measured(it) => {
                 fit.flask(&named("flask"), &it.flask);
-                fit.has(field, facts.thermometer, "thermometer");
+                fit.has(field, facts.thermometer, |it| &it.thermometer);
             }
-            Self::Wiped(_) => fit.has(field, facts.cloth, "cloth to wipe with"),
-            Self::Rinsed(_) => fit.has(field, facts.rinsing, "water to rinse hands with"),
+            Self::Wiped(_) => fit.has(field, facts.cloth, |it| &it.cloth),
+            Self::Rinsed(_) => fit.has(field, facts.rinsing, |it| &it.rinsing),
             Self::Answered(_) => {}
         }
     }
@@ -117,15 +127,15 @@ impl Keep {
     pub(super) fn fits(&self, field: &str, fit: &mut Fit<'_>) {
         let facts = fit.facts;
         match self {
-            Self::Never(super::Kind::Hot) => fit.has(field, facts.heat, HEAT),
+            Self::Never(super::Kind::Hot) => fit.has(field, facts.heat, |it| &it.heat),
             Self::Never(_) | Self::Spilt(_) => {}
             Self::Cool(it) => {
                 fit.flask(&format!("{field}.cool.flask"), &it.flask);
-                fit.has(field, facts.heat, HEAT);
+                fit.has(field, facts.heat, |it| &it.heat);
             }
-            Self::Goggles => fit.has(field, facts.goggles, "goggles to put on or take off"),
-            Self::Gloves => fit.has(field, facts.gloves, "gloves to put on or take off"),
-            Self::Sash(_) => fit.has(field, facts.sash, "hood with a sash"),
+            Self::Goggles => fit.has(field, facts.goggles, |it| &it.goggles),
+            Self::Gloves => fit.has(field, facts.gloves, |it| &it.gloves),
+            Self::Sash(_) => fit.has(field, facts.sash, |it| &it.sash),
         }
     }
 }

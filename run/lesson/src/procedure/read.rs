@@ -48,8 +48,12 @@ fn each<T>(
 ) -> Vec<T> {
     let count = source.length(field);
     if !source.is_unread(field) && !(least..=MOST).contains(&count) {
-        let problem = format!("there are {count}; a lesson has {least} to {MOST}");
-        source.refuse(field, problem);
+        let problem = source.texts.count.fill(&[
+            ("count", &count.to_string()),
+            ("least", &least.to_string()),
+            ("most", &MOST.to_string()),
+        ]);
+        source.refuse(field, &problem);
     }
     if source.is_unread(field) {
         return Vec::new();

@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use vitriol_sim::scene::missing_quote;
 
 use super::error::{Fault, LessonError, Problems};
+use crate::texts::FaultTexts;
 
 /// Most faults that are told: a file with more is no lesson.
 const MOST_FAULTS: usize = 100;
@@ -15,6 +16,8 @@ const MOST_FAULTS: usize = 100;
 /// A lesson's file, and the faults that were found in it so far.
 pub(super) struct Source<'t> {
     file: &'t str,
+    /// The sentences that say what is wrong.
+    pub texts: FaultTexts,
     root: Spanned<DeValue<'t>>,
     /// Offset at which each line begins.
     lines: Vec<usize>,
@@ -29,11 +32,12 @@ impl<'t> Source<'t> {
     /// # Errors
     /// [`LessonError::Faulty`] with each place that is no TOML. Nothing else is looked for then, because what stands behind such a place
     /// may not be what was meant.
-    pub fn new(text: &'t str, file: &'t str) -> Result<Self, LessonError> {
+    pub fn new(text: &'t str, file: &'t str, texts: FaultTexts) -> Result<Self, LessonError> {
         let (root, errors) = DeTable::parse_recoverable(text);
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         let mut source = Self {
             file,
+            texts,
             root: Spanned::new(root.span(), DeValue::Table(root.into_inner())),
             lines: std::iter::once(0)
                 .chain(breaks.map(|(at, _)| at + 1))
@@ -46,16 +50,17 @@ impl<'t> Source<'t> {
             .iter()
             .map(|error| {
                 let at = error.span().map_or(0, |span| span.start);
-                match missing_quote(error.message()) {
-                    Some(problem) => (at, false, problem.to_owned()),
-                    None => (at, true, format!("is no TOML: {}", error.message())),
+                let (why, texts) = (error.message(), &source.texts);
+                match missing_quote(why) {
+                    Some(_) => (at, false, texts.quote.text()),
+                    None => (at, true, texts.no_toml.fill(&[("why", why)])),
                 }
             })
             .collect();
         found.sort_by_key(|&(at, follows, _)| (source.line(at), follows));
         found.dedup_by_key(|&mut (at, ..)| source.line(at));
         for (at, _, problem) in found {
-            source.fault(at, "", problem);
+            source.fault(at, "", &problem);
         }
         if errors.is_empty() {
             Ok(source)
@@ -92,14 +97,10 @@ impl<'t> Source<'t> {
         self.lines.partition_point(|begin| *begin <= at)
     }
 
-    fn fault(&mut self, at: usize, field: &str, problem: String) {
-        let line = self.line(at);
+    fn fault(&mut self, at: usize, field: &str, problem: &str) {
         if self.faults.len() < MOST_FAULTS {
-            self.faults.push(Fault {
-                line,
-                field: field.to_owned(),
-                problem,
-            });
+            let fault = Fault::new(&self.texts, self.line(at), field, problem);
+            self.faults.push(fault);
         }
     }
 
@@ -116,12 +117,12 @@ impl<'t> Source<'t> {
     }
 
     /// Refuses that field, of which nothing more is said.
-    pub fn refuse(&mut self, field: &str, problem: impl Into<String>) {
+    pub fn refuse(&mut self, field: &str, problem: &str) {
         if self.is_unread(field) {
             return;
         }
         let at = self.find(field).0;
-        self.fault(at, field, problem.into());
+        self.fault(at, field, problem);
         self.skip(field);
     }
 
@@ -137,7 +138,7 @@ impl<'t> Source<'t> {
         let read = T::deserialize(ValueDeserializer::from(value));
         read.map_err(|error| {
             let at = error.span().map_or(at, |span| span.start);
-            self.fault(at, field, plain(error.message()));
+            self.fault(at, field, &plain(&self.texts, error.message()));
             self.skip(field);
         })
         .ok()
@@ -154,13 +155,12 @@ impl<'t> Source<'t> {
             None => 0,
             Some(DeValue::Array(array)) => array.len(),
             Some(_) => {
-                let of_tables = !field.contains('.');
-                let right = if of_tables {
-                    format!("begin each with [[{field}]]")
-                } else {
-                    "write [ ] around it".to_owned()
+                let heading = format!("[[{field}]]");
+                let problem = match field.contains('.') {
+                    true => self.texts.no_list.text(),
+                    false => (self.texts.no_list_of_tables).fill(&[("heading", &heading)]),
                 };
-                self.refuse(field, format!("is no list; {right}"));
+                self.refuse(field, &problem);
                 0
             }
         }
@@ -174,7 +174,7 @@ impl<'t> Source<'t> {
                 table.keys().map(|key| key.get_ref().to_string()).collect()
             }
             Some(_) => {
-                self.refuse(field, "is no table; it has keys with values");
+                self.refuse(field, &self.texts.no_table.text());
                 Vec::new()
             }
         }
@@ -194,17 +194,19 @@ impl<'t> Source<'t> {
         let is_there = |key: &&str| names.iter().any(|name| name == key);
         let missing: Vec<&str> = needed.iter().copied().filter(|it| !is_there(it)).collect();
         let unknown = names.iter().filter(|name| !known.contains(&name.as_str()));
-        let quoted = |keys: &[&str]| {
-            let keys: Vec<_> = keys.iter().map(|key| format!("`{key}`")).collect();
-            keys.join(", ")
-        };
+        let (known, lacking) = (quoted(&known), quoted(&missing));
         let mut misspelt = false;
         for name in unknown {
-            let mut problem = format!("unknown field `{name}`; known are {}", quoted(&known));
-            if !missing.is_empty() {
-                problem += &format!("; missing is {}", quoted(&missing));
-            }
-            self.refuse(&path(name), problem);
+            let template = match missing.is_empty() {
+                true => &self.texts.unknown,
+                false => &self.texts.unknown_and_missing,
+            };
+            let problem = template.fill(&[
+                ("name", name.as_str()),
+                ("known", &known),
+                ("missing", &lacking),
+            ]);
+            self.refuse(&path(name), &problem);
             misspelt = true;
         }
         for key in missing {
@@ -212,17 +214,18 @@ impl<'t> Source<'t> {
             if misspelt {
                 self.skip(path(key));
             } else {
-                self.refuse(&path(key), format!("missing field `{key}`; add it"));
+                let problem = self.texts.missing.fill(&[("name", key)]);
+                self.refuse(&path(key), &problem);
             }
         }
     }
 
     /// Adds problems of fields that could be read.
     pub fn add(&mut self, problems: Problems) {
-        for it in problems.0 {
+        for it in problems.found {
             if !self.is_unread(&it.field) {
                 let at = self.find(&it.field).0;
-                self.fault(at, &it.field, it.problem);
+                self.fault(at, &it.field, &it.problem);
             }
         }
     }
@@ -242,28 +245,54 @@ impl<'t> Source<'t> {
     }
 }
 
-/// A parser's message, with what would be right in words that are not a programmer's.
-fn plain(message: &str) -> String {
-    if message.starts_with("missing field") {
-        return format!("{message}; add it");
-    }
+/// These keys in the signs of code, as the parser's messages have them.
+fn quoted(keys: &[&str]) -> String {
+    let keys: Vec<_> = keys.iter().map(|key| format!("`{key}`")).collect();
+    keys.join(", ")
+}
+
+/// A parser's message in a teacher's words, with what would be right. One that is not known stands behind a sentence, as it is.
+fn plain(texts: &FaultTexts, message: &str) -> String {
+    // Each name in a message is between two of these signs; the first is the one that is wrong.
+    let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let unread = || texts.unread.fill(&[("why", message)]);
     if message.starts_with("wanted exactly 1 element") {
-        return "has none, or several; name one, or put several into `all = [ ]`".to_owned();
+        return texts.one_of_all.text();
     }
-    match message.rsplit_once(", expected ") {
-        Some((wrong, expected)) if message.starts_with("invalid ") => {
-            let right = match expected {
-                "u8" | "u32" => "a whole number, 0 or more",
-                "f64" => "a number",
-                "a boolean" => "true or false",
-                "a string" => "a text in \"quotes\"",
-                "a sequence" => "a list in [ ]",
-                "newtype variant" => "its keys in { } behind it",
-                it if it.starts_with("struct ") => "a table in { }",
-                other => other,
+    if let Some((name, known)) = names.split_first() {
+        let template = match message {
+            it if it.starts_with("missing field") => Some(&texts.missing),
+            it if it.starts_with("unknown field") => Some(&texts.unknown),
+            it if it.starts_with("unknown variant") => Some(&texts.variant),
+            _ => None,
+        };
+        if let Some(template) = template {
+            let known = match known {
+                [] => texts.none.text(),
+                known => quoted(known),
             };
-            format!("{wrong}; write {right}")
+            return template.fill(&[("name", name), ("known", &known)]);
         }
-        _ => message.to_owned(),
+    }
+    let invalid = ["invalid type: ", "invalid value: "];
+    let invalid = invalid.iter().find_map(|it| message.strip_prefix(it));
+    let Some((wrong, expected)) = invalid.and_then(|it| it.rsplit_once(", expected ")) else {
+        return unread();
+    };
+    let right = match expected {
+        "u8" | "u32" => &texts.whole,
+        "f64" => &texts.number,
+        "a boolean" => &texts.boolean,
+        "a string" => &texts.text,
+        "a sequence" => &texts.list,
+        "newtype variant" => &texts.keys,
+        it if it.starts_with("struct ") => &texts.table,
+        _ => return unread(),
+    };
+    let right = right.fill(&[("braces", "{ }")]);
+    let kinds = ["string ", "integer ", "floating point ", "boolean "];
+    match kinds.iter().find_map(|it| wrong.strip_prefix(it)) {
+        Some(found) => texts.unfit.fill(&[("found", found), ("right", &right)]),
+        None => texts.unfit_kind.fill(&[("right", &right)]),
     }
 }

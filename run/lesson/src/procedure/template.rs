@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::error::LessonError;
-use super::file::{Lesson, find, is_id};
+use super::file::{LONGEST_ID, Lesson, find, is_id};
 use crate::language::Language;
-use crate::texts::lesson_lines;
+use crate::texts::{FaultTexts, lesson_lines};
 
 /// What each key means, in words for a teacher.
 const KEYS: [(&str, &str); 52] = [
@@ -130,10 +130,12 @@ impl Lesson {
     /// [`LessonError::NewName`] where a lesson cannot have that name, and [`LessonError::NotFound`] for an unknown `from`.
     pub fn template(name: &str, from: &str, language: Language) -> Result<String, LessonError> {
         if !is_id(name) || Self::builtin_names().contains(&name) {
-            return Err(LessonError::NewName {
-                name: name.to_owned(),
-                known: Self::builtin_names().join(", "),
-            });
+            let problem = FaultTexts::of(language)?.new_name.fill(&[
+                ("name", &format!("{name:?}")),
+                ("most", &LONGEST_ID.to_string()),
+                ("known", &Self::builtin_names().join(", ")),
+            ]);
+            return Err(LessonError::NewName(problem));
         }
         let steps = find(from)?;
         // A test rules out that a built-in lesson has no texts in a language.

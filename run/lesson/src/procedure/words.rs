@@ -96,9 +96,10 @@ impl LessonTexts {
             // Of a step without texts that is said already.
             let found = self.step.get(*id).map(|step| step.answers.len());
             if let Some(found) = found.filter(|found| found != needed) {
-                let problem = format!(
-                    "has {found}, and the step asks for {needed}; give each answer its text"
-                );
+                let problem = problems.texts.answers.fill(&[
+                    ("found", &found.to_string()),
+                    ("needed", &needed.to_string()),
+                ]);
                 problems.add(format!("{field}.step.{id}.answers"), problem);
             }
         }
@@ -113,26 +114,28 @@ fn same_keys<'a>(
 ) {
     let found: BTreeSet<&str> = found.map(String::as_str).collect();
     for missing in needed.iter().filter(|id| !found.contains(*id)) {
-        let problem = "missing; give its texts, or take the language out";
+        let problem = problems.texts.texts_missing.text();
         problems.add(format!("{field}.{missing}"), problem);
     }
     for other in found.iter().filter(|id| !needed.contains(id)).take(MOST) {
-        let known = listed(needed.iter().copied());
-        let problem = format!("the lesson has none of that id; it has {known}");
+        let known = listed(&problems.texts, needed.iter().copied());
+        let problem = problems.texts.texts_unknown.fill(&[("known", &known)]);
         problems.add(format!("{field}.{other}"), problem);
     }
 }
 
 fn line(problems: &mut Problems, field: &str, text: &str, most: usize) {
     let length = text.chars().count();
+    let texts = &problems.texts;
     let problem = if text.trim().is_empty() {
-        "empty; say something".to_owned()
+        texts.empty.text()
     } else if length > most {
-        format!("{length} characters, where the panel has room for {most}; say it shorter")
+        let (length, most) = (length.to_string(), most.to_string());
+        texts.long.fill(&[("length", &length), ("most", &most)])
     } else if text.chars().any(char::is_control) {
-        "has a line break or another control character; make one line of it".to_owned()
+        texts.control.text()
     } else if text.contains(['{', '}']) {
-        "has a brace; a lesson's texts have no holes, so write what is meant".to_owned()
+        texts.brace.text()
     } else {
         return;
     };

@@ -210,7 +210,7 @@ fn a_lesson_sets_its_caps() {
         "{too_high}"
     );
     assert!(refused("wrong_oder = 1").contains("unknown field `wrong_oder`"));
-    assert!(refused("wrong_order = -1").contains("invalid value"));
+    assert!(refused("wrong_order = -1").contains("`-1` does not fit"));
     let asks = Lesson::builtin_text("dilute").unwrap().replacen(
         "points = 10",
         "points = 10\nasks = [\"wrong-oder\"]",

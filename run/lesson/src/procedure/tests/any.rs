@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use super::fits::facts;
 use super::spoiled::GOOD;
 use super::*;
+use crate::Language;
 
 proptest! {
     #[test]
@@ -22,7 +23,7 @@ proptest! {
         let rest = &bytes[(at + long).min(bytes.len())..];
         let text = [&bytes[..at], piece, rest].concat();
         let text = String::from_utf8_lossy(&text);
-        let _ = Lesson::parse_for(&text, "any.toml", |_| Ok(Some(facts())));
+        let _ = Lesson::parse_for(&text, ("any.toml", Language::En), |_| Ok(Some(facts())));
         if let Ok(lesson) = Lesson::parse(&text, "any.toml") {
             let mut procedure = Procedure::new(lesson, Mode::Guided);
             procedure.advance(&sight(1.0), &[ended(1.0)]);

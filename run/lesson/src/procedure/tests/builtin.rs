@@ -36,7 +36,7 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
         // It fits its scene; a copy in another file keeps its texts.
         let text = Lesson::builtin_text(name).unwrap();
         let facts = |scene: &str| Ok(Some(facts(scene)));
-        let copy = Lesson::parse_for(text, "copy.toml", facts).unwrap();
+        let copy = Lesson::parse_for(text, ("copy.toml", Language::En), facts).unwrap();
         assert_eq!(copy, lesson);
     }
     // No texts belong to a lesson that does not exist.
@@ -91,7 +91,7 @@ fn a_new_lesson_is_good_and_explained() {
         for language in Language::ALL {
             let text = Lesson::template("own-1", from, language).unwrap();
             let facts = |scene: &str| Ok(Some(facts(scene)));
-            let own = Lesson::parse_for(&text, "own-1.toml", facts).unwrap();
+            let own = Lesson::parse_for(&text, ("own-1.toml", Language::En), facts).unwrap();
             let builtin = Lesson::builtin(from).unwrap();
             assert_eq!(
                 (own.name.as_str(), own.languages()),

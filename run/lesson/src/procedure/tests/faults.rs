@@ -9,7 +9,7 @@ use crate::Language;
 
 /// The faults of a text, whose scene has these facts.
 fn faults(text: &str) -> Vec<Fault> {
-    let refused = Lesson::parse_for(text, "bad.toml", |_| Ok(Some(facts())));
+    let refused = Lesson::parse_for(text, ("bad.toml", Language::En), |_| Ok(Some(facts())));
     match refused.map(|_| text).unwrap_err() {
         LessonError::Faulty { faults, .. } => faults,
         other => panic!("{other}"),
@@ -79,9 +79,9 @@ fn all_faults_are_told_in_one_go_with_their_lines() {
         "give its texts",
     ];
     for (fault, right) in found.iter().zip(right) {
-        assert!(fault.problem.contains(right), "{fault}");
+        assert!(fault.text.contains(right), "{fault}");
     }
-    let refused = Lesson::parse_for(&text, "bad.toml", |_| Ok(Some(facts())));
+    let refused = Lesson::parse_for(&text, ("bad.toml", Language::En), |_| Ok(Some(facts())));
     let message = refused.map(|_| ()).unwrap_err().to_string();
     for (told, fault) in message.lines().zip(&found) {
         assert_eq!(told, format!("bad.toml: {fault}"));
@@ -145,7 +145,7 @@ fn what_is_no_toml_is_told_by_its_lines() {
         BTreeSet::from(places.map(|it| line_of(&text, it))),
         "{found:?}"
     );
-    assert!(found.iter().all(|it| it.problem.contains("no TOML")));
+    assert!(found.iter().all(|it| it.text.contains("no TOML")));
 }
 
 /// A quote that is missing is told in a sentence of ours, whatever else the parser stumbles over in that line.
@@ -169,11 +169,16 @@ fn a_missing_quote_is_told_with_its_line() {
 #[test]
 fn a_scene_that_is_not_there_is_told_with_the_rest() {
     let text = GOOD.replacen("points = 10", "points = 1001", 1);
-    let refused = Lesson::parse_for(&text, "bad.toml", |scene| Err(format!("no {scene}")));
+    let refused = Lesson::parse_for(&text, ("bad.toml", Language::En), |scene| {
+        Err(format!("no {scene}"))
+    });
     let message = refused.map(|_| ()).unwrap_err().to_string();
     let lines: Vec<&str> = message.lines().collect();
     assert_eq!(lines.len(), 2, "{message}");
-    assert!(lines[0].contains("line 4: scene: no bench"), "{message}");
+    assert!(
+        lines[0].contains("line 4: scene: cannot be read: no bench"),
+        "{message}"
+    );
     assert!(
         lines[1].contains("line 9: step 1, points: 1001"),
         "{message}"
@@ -198,5 +203,99 @@ fn a_lesson_in_one_language_needs_no_english() {
     assert!(
         message.contains("texts: missing") && message.contains("[texts.de]"),
         "{message}"
+    );
+}
+
+/// What a sentence has of the file and of the program's limits: its numbers, and what stands in the signs of code.
+fn marks(text: &str) -> Vec<&str> {
+    let numbers = text.split(|c: char| !c.is_ascii_digit());
+    let names = text.split('`').skip(1).step_by(2);
+    let mut marks: Vec<&str> = numbers.filter(|it| !it.is_empty()).chain(names).collect();
+    marks.sort_unstable();
+    marks
+}
+
+/// Each language has the same faults in the same lines, with the same numbers and names, and no sentence of the English table.
+#[test]
+fn faults_are_told_in_each_language() {
+    let mut text = GOOD.to_owned();
+    for (from, to) in [
+        ("version = 1", "version = 2"),
+        ("[\"guided\", \"free\"]", "[\"guided\", \"guided\"]"),
+        ("hint_after_s = 20", "hint_after_s = \"soon\""),
+        ("time_limit_s = 120", "time_limit = 120"),
+        ("\"gloves\"]", "\"glove\"]"),
+        ("at_most_ml = 20", "at_most_ml = 10"),
+        ("after = [\"pour\"]", "after = [\"check\"]"),
+        (
+            "any = [{ lifted = { flask = \"a\" } }, { goggles = { on = true } }]",
+            "any = []",
+        ),
+        ("flask = \"b\"\nat_least_ml", "flask = \"c\"\nat_least_ml"),
+        ("acid_from_percent = 15", "acid_from_percent = 150"),
+        (", at_least_c = 20, at_most_c = 90", ""),
+        ("id = \"clean\"", "id = \"pour\""),
+        ("title = \"Own\"", "title = \" \""),
+        ("What it is about.", "What {it} is."),
+        ("step.look = { text = \"看。\", hint = \"那里。\" }\n", ""),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let told = |language| {
+        let facts = SceneFacts {
+            heat: false,
+            ..facts()
+        };
+        let refused = Lesson::parse_for(&text, ("bad.toml", language), |_| Ok(Some(facts)));
+        match refused.map(|_| language).unwrap_err() {
+            LessonError::Faulty { faults, .. } => faults,
+            other => panic!("{other}"),
+        }
+    };
+    let table: toml::Table = toml::from_str(include_str!("../../../texts/fault/en.toml")).unwrap();
+    let sentences = table["fault"].as_table().unwrap().values();
+    // What stands between the holes, without pieces that are too short to be of one language.
+    let pieces = sentences.flat_map(|it| it.as_str().unwrap().split(['{', '}']).step_by(2));
+    let letters = |it: &str| it.chars().filter(char::is_ascii_alphabetic).count();
+    let pieces: Vec<&str> = pieces.filter(|it| letters(it) >= 8).collect();
+    let is_english = |fault: &Fault| pieces.iter().any(|it| fault.text.contains(it));
+    let english = told(Language::En);
+    assert!(
+        english.len() > 15 && english.iter().all(is_english),
+        "{english:#?}"
+    );
+    for language in [Language::De, Language::Es, Language::Zh] {
+        let other = told(language);
+        assert_eq!(other.len(), english.len(), "{language}: {other:#?}");
+        for (fault, english) in other.iter().zip(&english) {
+            assert_eq!((fault.line, &fault.field), (english.line, &english.field));
+            assert_eq!(marks(&fault.text), marks(&english.text), "{fault}");
+            assert!(!is_english(fault), "{fault}");
+        }
+    }
+}
+
+/// The parser's own message stays as it is, behind a sentence that says what it is about.
+#[test]
+fn no_toml_is_told_in_the_language_of_the_command() {
+    let told = |from: &str, to: &str| {
+        let text = GOOD.replacen(from, to, 1);
+        let refused = Lesson::parse_for(&text, ("bad.toml", Language::De), |_| Ok(None));
+        let message = refused.map(|_| ()).unwrap_err().to_string();
+        (message, line_of(&text, to))
+    };
+    for (to, right) in [
+        ("id = stir", "ist kein TOML: "),
+        ("id = \"stir", "ein Anführungszeichen fehlt: "),
+    ] {
+        let (message, line) = told("id = \"stir\"", to);
+        let right = format!("bad.toml: Zeile {line}: {right}");
+        assert!(message.starts_with(&right), "{message}");
+    }
+    let refused = Lesson::template("Own", "dilute", Language::De).unwrap_err();
+    assert!(
+        refused.to_string().starts_with("Lektion \"Own\": "),
+        "{refused}"
     );
 }

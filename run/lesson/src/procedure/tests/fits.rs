@@ -2,6 +2,7 @@
 
 use super::spoiled::GOOD;
 use super::*;
+use crate::Language;
 
 type Change<'a> = &'a dyn Fn(&mut SceneFacts);
 
@@ -29,7 +30,7 @@ pub(super) fn facts() -> SceneFacts {
 /// Reads a lesson that is good except for its scene, which has these properties.
 fn read_for(text: &str, facts: SceneFacts) -> Result<Lesson, LessonError> {
     Lesson::parse(text, "own.toml").unwrap();
-    Lesson::parse_for(text, "own.toml", |_| Ok(Some(facts)))
+    Lesson::parse_for(text, ("own.toml", Language::En), |_| Ok(Some(facts)))
 }
 
 #[test]

@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::super::error::Problems;
 use super::*;
 use crate::caps::Caps;
+use crate::{FaultTexts, Language};
 
 /// A line of a step.
 #[derive(Deserialize)]
@@ -69,9 +70,9 @@ fn the_page_has_each_condition_with_its_keys() {
         }
         let line: StepLine = toml::from_str(example(row)).unwrap();
         assert_eq!(line.condition.field(""), format!(".{name}"));
-        let mut problems = Problems::default();
+        let mut problems = Problems::new(FaultTexts::of(Language::En).unwrap());
         line.condition.check(&mut problems, "");
-        assert!(problems.0.is_empty(), "{row}: {problems:?}");
+        assert!(problems.found.is_empty(), "{row}: {problems:?}");
     }
 }
 
@@ -91,11 +92,11 @@ fn the_page_has_each_requirement_with_its_keys() {
         }
         assert!(has_word(example(row), name), "{row}");
         let line: KeepLine = toml::from_str(example(row)).unwrap();
-        let mut problems = Problems::default();
+        let mut problems = Problems::new(FaultTexts::of(Language::En).unwrap());
         for keep in &line.keep {
             keep.check(&mut problems, "");
         }
-        assert!(problems.0.is_empty(), "{row}: {problems:?}");
+        assert!(problems.found.is_empty(), "{row}: {problems:?}");
     }
 }
 

@@ -147,7 +147,7 @@ fn a_question_that_is_spoiled_is_refused() {
             "right = 4",
             &["step 2, condition.answered.right: 4", "1 to 3"],
         ),
-        ("right = 2", "right = -1", &["invalid value"]),
+        ("right = 2", "right = -1", &["`-1` does not fit"]),
         (
             "right = 2",
             "wrong = 2",

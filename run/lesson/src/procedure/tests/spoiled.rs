@@ -2,6 +2,7 @@
 
 use super::fits::facts;
 use super::*;
+use crate::Language;
 
 /// A lesson that has each thing that a test spoils once.
 pub(super) const GOOD: &str = r#"
@@ -71,7 +72,7 @@ rule.clean = "不要洒出。"
 
 #[test]
 fn a_spoiled_lesson_names_file_field_and_remedy() {
-    Lesson::parse_for(GOOD, "good.toml", |_| Ok(Some(facts()))).unwrap();
+    Lesson::parse_for(GOOD, ("good.toml", Language::En), |_| Ok(Some(facts()))).unwrap();
     let long = "x".repeat(61);
     let title = format!("title = \"{long}\"");
     let chinese = format!("summary = \"{}\"", "长".repeat(141));
@@ -83,7 +84,11 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
         ),
         ("version = 1", "version = 2", &["version: 2", "reads 1"]),
         ("version = 1", "", &["missing field `version`"]),
-        ("version = 1", "version = 1.5", &["line 2", "invalid type"]),
+        (
+            "version = 1",
+            "version = 1.5",
+            &["line 2", "`1.5` does not fit"],
+        ),
         ("modes = [", "modes = ", &["line 5"]),
         (
             "name = \"own-1\"",
@@ -136,7 +141,11 @@ fn a_spoiled_lesson_names_file_field_and_remedy() {
             "points = 1001",
             &["step 1, points: 1001", "0 to 1000"],
         ),
-        ("points = 10", "points = -1", &["line 9", "invalid value"]),
+        (
+            "points = 10",
+            "points = -1",
+            &["line 9", "`-1` does not fit"],
+        ),
         (
             "hint_after_s = 20",
             "hint_after_s = 0",
