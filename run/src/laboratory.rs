@@ -181,14 +181,12 @@ impl Laboratory {
             }
         })?;
         let shot = setup.picture.map(|extent| Shot {
-            extent,
             eyes: setup.eyes,
-            liquid: None,
             filter: setup.filter,
             tint: setup.tint,
             room: setup.room,
             look: setup.look,
-            foveation: None,
+            ..Shot::of(extent)
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;
         if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
@@ -428,7 +426,6 @@ impl Experiment for Laboratory {
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {
         self.run.end_attempt()?;
-        let counts = self.run.counts();
         let measured = self.run.world.measure().map_err(blame_world)?;
         let counted = self.run.world.counters().map_err(blame_world)?;
         let state = self.run.world.snapshot().map_err(blame_world)?;
@@ -465,14 +462,12 @@ impl Experiment for Laboratory {
             progress: self.run.progress().to_vec(),
             instructions: self.run.instructions().to_vec(),
             counters: Counters {
-                substeps: counts.substeps,
-                solver_changes: counts.solver_changes,
-                flasks_broken: counts.flasks_broken,
                 neighbour_rebuilds: counted.list_rebuilds.into(),
                 limiters: limiters
                     .map(|(name, times)| (name.to_owned(), times.into()))
                     .into_iter()
                     .collect(),
+                ..self.run.counts().clone()
             },
         })
     }

@@ -11,7 +11,7 @@ use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::Census;
-use vitriol_sim::world::{Look, World};
+use vitriol_sim::world::{Look, World, WorldError};
 use vitriol_xr::PoseFrame;
 
 use crate::failure::{Blame, Failure};
@@ -119,15 +119,7 @@ impl Looks {
     /// # Errors
     /// An error of the device.
     pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
-        let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
-        let Some((census, elapsed)) = (match oldest {
-            Some(look) => look.try_get().other()?.map(|it| (it, look.elapsed)),
-            None => None,
-        }) else {
-            return Ok(None);
-        };
-        let oldest = self.under_way.pop_front();
-        Ok(oldest.map(|it| self.seen(it, census, elapsed)))
+        self.oldest(Look::try_get)
     }
 
     /// The oldest observation that was not collected yet, if there is one; waits for the device.
@@ -135,11 +127,22 @@ impl Looks {
     /// # Errors
     /// An error of the device.
     pub fn wait(&mut self) -> Result<Option<Looked>, Failure> {
+        self.oldest(|look| look.get().map(Some))
+    }
+
+    /// The oldest observation that was not collected yet, if `get` returns its census.
+    fn oldest(
+        &mut self,
+        get: impl Fn(&Look) -> Result<Option<Census>, WorldError>,
+    ) -> Result<Option<Looked>, Failure> {
         let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
         let Some(look) = oldest else {
             return Ok(None);
         };
-        let (census, elapsed) = (look.get().other()?, look.elapsed);
+        let elapsed = look.elapsed;
+        let Some(census) = get(look).other()? else {
+            return Ok(None);
+        };
         let oldest = self.under_way.pop_front();
         Ok(oldest.map(|it| self.seen(it, census, elapsed)))
     }

@@ -14,6 +14,7 @@ use vitriol_xr::PoseFrame;
 use crate::action::Action;
 use crate::audible::Audible;
 use crate::clock::SimulatedTime;
+use crate::experiment::Counters;
 use crate::failure::{Blame, Failure, blame_world};
 use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
@@ -45,7 +46,7 @@ pub struct Run {
     progress: Vec<Progress>,
     instructions: Vec<(f64, Action)>,
     sounds: Vec<sound::Event>,
-    counts: RunCounts,
+    counts: Counters,
 }
 
 /// Where the liquid was in the last observation that was collected; nowhere before the first one of a scene.
@@ -55,17 +56,6 @@ pub struct LastSeen {
     pub flasks: Vec<Held>,
     /// Liquid on the bench and on the floor, real m³.
     pub spilt: [f64; 2],
-}
-
-/// What is counted over a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RunCounts {
-    /// Substeps done.
-    pub substeps: u64,
-    /// Times that substeps or iterations changed.
-    pub solver_changes: u64,
-    /// Flasks that broke.
-    pub flasks_broken: u64,
 }
 
 impl Run {
@@ -88,7 +78,7 @@ impl Run {
             progress: Vec::new(),
             instructions: Vec::new(),
             sounds: Vec::new(),
-            counts: RunCounts::default(),
+            counts: Counters::default(),
         }
     }
 
@@ -152,9 +142,9 @@ impl Run {
         self.looks.thermometer()
     }
 
-    /// What was counted.
-    pub fn counts(&self) -> RunCounts {
-        self.counts
+    /// What was counted outside the solver, whose own counts are 0 here.
+    pub fn counts(&self) -> &Counters {
+        &self.counts
     }
 
     /// How the recording stands; `None` without one.

@@ -54,7 +54,7 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     prepared.take_keys(decisions)?;
     let session = Session::new(&desk, options, taken)?.mirrored(window)?;
     let outcome = session.run(&mut desk)?;
-    prepared.end(report::report(desk.name().to_owned(), &outcome, None)?)
+    prepared.end(report::report(desk.name().to_owned(), outcome, None)?)
 }
 
 /// The preset where none is asked for. Computers that have no headset often have no graphics card of their own, and `fast` has a

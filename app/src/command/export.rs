@@ -99,19 +99,16 @@ fn report(input: &str) -> Result<Option<Report>, Failure> {
     // The layout first: another one may not even be read.
     #[derive(serde::Deserialize)]
     struct Layout {
-        #[serde(default = "first")]
-        layout: u32,
-    }
-    fn first() -> u32 {
-        1
+        layout: Option<u32>,
     }
     let wrong = |error| format!("{}: is no report of a run: {error}", file.display());
     let layout: Layout = serde_json::from_slice(&bytes).map_err(wrong).input()?;
-    if layout.layout != LAYOUT {
+    // Reports of the first one name none.
+    let layout = layout.layout.unwrap_or(1);
+    if layout != LAYOUT {
         return Err(format!(
-            "{}: has the layout {}, and this program reads {LAYOUT}; export it with the program that made it",
-            file.display(),
-            layout.layout
+            "{}: has the layout {layout}, and this program reads {LAYOUT}; export it with the program that made it",
+            file.display()
         ))
         .input();
     }
@@ -140,12 +137,17 @@ fn simulated(
     format: Format,
     out: OutDir,
 ) -> Result<Done, Failure> {
-    let made = report.map(Made::of).transpose()?.unwrap_or_default();
+    let made = match report {
+        Some(report) => made(report)?,
+        None => Ask {
+            track: &args.input,
+            ..Ask::default()
+        },
+    };
     let ask = Ask {
-        track: args.track.as_deref().or(made.track).unwrap_or(&args.input),
+        track: args.track.as_deref().unwrap_or(made.track),
         scene: args.scene.as_deref().or(made.scene),
         preset: args.preset.or(made.preset),
-        budget_ms: None,
         // That of the run belongs to its scene and preset.
         solver: args.solver.or(made
             .solver
@@ -153,9 +155,8 @@ fn simulated(
         seconds: args.at.or(args.seconds).or(made.seconds),
         seed: args.seed.or(made.seed),
         device: args.device.as_deref(),
-        breakable: made.breakable,
         accept_truncated: args.accept_truncated || made.accept_truncated,
-        ..Ask::default()
+        ..made
     };
     let plan = ReplayPlan::new(&ask)?;
     let times = times(args, &plan, made.seconds)?;
@@ -164,26 +165,10 @@ fn simulated(
     let mut laboratory = Laboratory::new(
         &gpu,
         &Setup {
-            scene: &plan.scene,
-            scene_name: &plan.name,
-            scenes: &plan.scenes,
-            preset: plan.preset,
-            seed: plan.seed,
-            device: args.device.as_deref(),
             picture: films.then_some(FILM_SIZE),
-            colours: if films {
-                vec![Colour::Liquid]
-            } else {
-                Vec::new()
-            },
-            eyes: 1,
-            filter: None,
-            tint: None,
-            room: None,
-            head: None,
-            directed: false,
-            look: None,
+            colours: films.then_some(Colour::Liquid).into_iter().collect(),
             shaders: Arc::new(Library::watching()),
+            ..plan.setup(args.device.as_deref())
         },
     )?;
     let origin = Origin {
@@ -214,62 +199,49 @@ fn simulated(
     Ok(done)
 }
 
-/// A report's data on how its run was made.
-#[derive(Default)]
-struct Made<'a> {
-    track: Option<&'a str>,
-    scene: Option<&'a str>,
-    preset: Option<Preset>,
-    solver: Option<[u32; 2]>,
-    seconds: Option<f64>,
-    seed: Option<u64>,
-    breakable: bool,
-    accept_truncated: bool,
-}
-
-impl<'a> Made<'a> {
-    /// A report may come from anyone, as a track may: a scene's file is opened where the user names it, and not the report.
-    /// (The track's is: the track reader's error for another kind of file reveals nothing of its contents.)
-    fn of(report: &'a Report) -> Result<Self, Failure> {
-        let name = &report.preset;
-        let preset = Preset::ALL.into_iter().find(|preset| preset.name() == name);
-        if preset.is_none() {
-            return Err(format!(
-                "the report names a preset {name:?}, which there is not"
-            ))
-            .input();
-        }
-        let made = Self {
-            track: Some(&report.track),
-            preset,
-            seed: Some(report.seed),
-            ..Self::default()
-        };
-        let Some(asked) = &report.asked else {
-            return Ok(Self {
-                scene: Scene::builtin_text(&report.scene.name).map(|_| &*report.scene.name),
-                solver: Some([report.solver.substeps, report.solver.iterations]),
-                seconds: Some(report.simulated_s),
-                ..made
-            });
-        };
-        if let Some(scene) = &asked.scene
-            && Scene::builtin_text(scene).is_none()
-        {
-            return Err(format!(
-                "the report names the scene's file {scene:?}; if you trust it, name it with --scene"
-            ))
-            .input();
-        }
-        Ok(Self {
-            scene: asked.scene.as_deref(),
-            solver: asked.solver,
-            seconds: asked.seconds,
-            breakable: asked.breakable,
-            accept_truncated: asked.accept_truncated,
-            ..made
-        })
+/// How a report's run was made.
+///
+/// A report may come from anyone, as a track may: a scene's file is opened where the user names it, and not the report.
+/// (The track's is: the track reader's error for another kind of file reveals nothing of its contents.)
+fn made(report: &Report) -> Result<Ask<'_>, Failure> {
+    let name = &report.preset;
+    let preset = Preset::ALL.into_iter().find(|preset| preset.name() == name);
+    if preset.is_none() {
+        return Err(format!(
+            "the report names a preset {name:?}, which there is not"
+        ))
+        .input();
     }
+    let made = Ask {
+        track: &report.track,
+        preset,
+        seed: Some(report.seed),
+        ..Ask::default()
+    };
+    let Some(asked) = &report.asked else {
+        return Ok(Ask {
+            scene: Scene::builtin_text(&report.scene.name).map(|_| &*report.scene.name),
+            solver: Some([report.solver.substeps, report.solver.iterations]),
+            seconds: Some(report.simulated_s),
+            ..made
+        });
+    };
+    if let Some(scene) = &asked.scene
+        && Scene::builtin_text(scene).is_none()
+    {
+        return Err(format!(
+            "the report names the scene's file {scene:?}; if you trust it, name it with --scene"
+        ))
+        .input();
+    }
+    Ok(Ask {
+        scene: asked.scene.as_deref(),
+        solver: asked.solver,
+        seconds: asked.seconds,
+        breakable: asked.breakable,
+        accept_truncated: asked.accept_truncated,
+        ..made
+    })
 }
 
 /// When moments are exported.

@@ -59,17 +59,9 @@ pub fn run(
         ..Ask::default()
     })?;
     plan.reaches(args.at, plan.track.duration())?;
-    let ReplayPlan {
-        track,
-        scenes,
-        name,
-        scene,
-        preset,
-        seed,
-        ..
-    } = plan;
-    if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
+    if args.colour.is_of_heat() && !plan.scene.models(Feature::Heat) {
         let colour = args.colour.name();
+        let name = &plan.name;
         return Err(format!(
             "--colour {colour}: the scene {name} models no heat"
         ))
@@ -77,27 +69,22 @@ pub fn run(
     }
     let eyes = if args.stereo { 2 } else { 1 };
     let mut experiment = prepare(&Setup {
-        scene: &scene,
-        scene_name: &name,
-        scenes: &scenes,
-        preset,
-        seed,
-        device: args.device.as_deref(),
         picture: Some(args.size),
         eyes,
         colours: vec![args.colour],
         filter: args.filter,
         tint: args.drawn.tint,
         room: args.drawn.room,
-        head: head(args.camera, &args.track, &track)?,
+        head: head(args.camera, &args.track, &plan.track)?,
         directed: args.camera == CameraName::Director && args.eye.is_none(),
         look: args.look(),
         shaders: Arc::new(Library::watching()),
+        ..plan.setup(args.device.as_deref())
     })?;
-    let span = Span::covering(args.at, scene.scale.frame_time);
+    let span = Span::covering(args.at, plan.scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Runs::new(format).of(&args.track, span));
     vitriol_run::replay(
-        &mut TrackSource::new(track),
+        &mut TrackSource::new(plan.track),
         experiment.as_mut(),
         span,
         &mut observer,

@@ -2,7 +2,7 @@
 
 use vitriol_lesson::Language;
 use vitriol_run::track::key;
-use vitriol_run::{Action, Blame, Failure, Scenes, Span, device, track};
+use vitriol_run::{Action, Blame, Failure, Scenes, Setup, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Track, limits};
@@ -180,6 +180,15 @@ impl ReplayPlan {
             chosen,
             span,
         })
+    }
+
+    /// The setup of its experiment on `device`: without pictures, with the built-in shaders.
+    pub fn setup<'a>(&'a self, device: Option<&'a str>) -> Setup<'a> {
+        let name = (self.name.as_str(), &self.scenes);
+        Setup {
+            device,
+            ..Setup::without_pictures(&self.scene, name, self.preset, self.seed)
+        }
     }
 
     /// Whether a moment at `seconds` is before the end of a run that lasts `whole` seconds, give or take a step: after it hands would only

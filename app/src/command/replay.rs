@@ -147,60 +147,44 @@ fn replay(
     prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<Replayed, Failure> {
     let ask = ask(args, name);
-    let ReplayPlan {
-        track,
-        scenes,
-        name: name_of_start,
-        scene,
-        preset,
-        chosen,
-        seed,
-        span,
-    } = ReplayPlan::new(&ask)?;
-    let head = head(args.camera, name, &track)?;
+    let plan = ReplayPlan::new(&ask)?;
+    let head = head(args.camera, name, &plan.track)?;
     let lesson = args.judge.chosen(args.language)?;
     let judging = lesson.as_ref().map(|(lesson, mode)| {
-        let text = scenes.text(&name_of_start);
-        let scene = (name_of_start.as_str(), text.as_deref());
+        let text = plan.scenes.text(&plan.name);
+        let scene = (plan.name.as_str(), text.as_deref());
         course::judging((lesson, *mode), scene, args.language)
     });
     let judging = judging.transpose()?;
-    let asked = ask.otherwise(&track);
+    let asked = ask.otherwise(&plan.track);
     #[cfg(feature = "class")]
-    let record = class::Record::of((args, name), &track, &asked)?;
-    let colours = colours(args, &scene, &name_of_start)?;
+    let record = class::Record::of((args, name), &plan.track, &asked)?;
+    let colours = colours(args, &plan.scene, &plan.name)?;
     let mut out = OutDir::take(out.as_deref(), &stem(name))?;
     let mut experiment = prepare(&Setup {
-        scene: &scene,
-        scene_name: &name_of_start,
-        scenes: &scenes,
-        preset,
-        seed,
-        device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
         colours: colours.clone(),
-        eyes: 1,
         filter: args.filter,
         tint: args.drawn.tint,
         room: args.drawn.room,
         head,
         directed: args.camera == CameraName::Director,
-        look: None,
         shaders: Arc::new(Library::watching()),
+        ..plan.setup(args.device.as_deref())
     })?;
     if let Some(judging) = judging {
         experiment.judge(judging);
     }
     let went_through = lesson.as_ref().filter(|(lesson, mode)| {
         let asked = AskedLesson::of(lesson, *mode);
-        asked.otherwise(&track).is_none()
+        asked.otherwise(&plan.track).is_none()
     });
-    let recorded = is_recording(&track.metadata).then(|| Recorded {
-        metadata: track.metadata.clone(),
-        said: track.outcome.clone(),
+    let recorded = is_recording(&plan.track.metadata).then(|| Recorded {
+        metadata: plan.track.metadata.clone(),
+        said: plan.track.outcome.clone(),
         asked,
-        events: recorded_events(&track),
-        progress: went_through.map(|_| recorded_progress(&track)),
+        events: recorded_events(&plan.track),
+        progress: went_through.map(|_| recorded_progress(&plan.track)),
     });
 
     let films = colours.iter().enumerate().map(|(index, _)| {
@@ -208,11 +192,11 @@ fn replay(
         Film::with_sound(&path, FILM_SIZE, FILM_FPS)
     });
     let films = films.collect::<Result<_, _>>().other()?;
-    let mut observer = Observer::new(span, films, bars.of(name, span));
+    let mut observer = Observer::new(plan.span, films, bars.of(name, plan.span));
     vitriol_run::replay(
-        &mut TrackSource::new(track),
+        &mut TrackSource::new(plan.track),
         experiment.as_mut(),
-        span,
+        plan.span,
         &mut observer,
     )?;
     let mut observations = observer.finish()?;
@@ -222,20 +206,23 @@ fn replay(
     }
     let outcome = experiment.outcome()?;
     let (scene_name, scene) = match &outcome.scene {
-        Some(switched) => (switched.clone(), scenes.get(switched)?.with_preset(preset)),
-        None => (name_of_start.clone(), scene),
+        Some(switched) => {
+            let scene = plan.scenes.get(switched)?.with_preset(plan.preset);
+            (switched.clone(), scene)
+        }
+        None => (plan.name.clone(), plan.scene),
     };
     let scene = scene.with_effort(outcome.effort);
     let judged = lesson.as_ref();
     let rubric = judged.map(|(lesson, _)| lesson.rubric());
     let rubric = rubric.unwrap_or_default();
     let retold = judged.map(|(lesson, mode)| Verdict::retold(lesson, *mode, &outcome.progress));
-    let recording = recorded.map(|recorded| recorded.against((&name_of_start, &scenes), &outcome));
+    let recording = recorded.map(|recorded| recorded.against((&plan.name, &plan.scenes), &outcome));
     let mut report = assemble(
-        (args, name, chosen),
+        (args, name, plan.chosen),
         &colours,
-        preset,
-        seed,
+        plan.preset,
+        plan.seed,
         (&scene_name, &scene),
         outcome,
         observations,
@@ -304,26 +291,21 @@ struct Recorded {
 impl Recorded {
     /// How the run stands to it.
     fn against(self, scene: (&str, &Scenes), outcome: &Outcome) -> RecordingStatement {
-        let Self {
-            metadata,
-            said,
-            asked,
-            events,
-            progress,
-        } = self;
-        let state_hash = said.get(STATE_HASH).cloned();
+        let metadata = &self.metadata;
+        let state_hash = self.said.get(STATE_HASH).cloned();
         let same = state_hash
             .as_ref()
             .map(|recorded| *recorded == format!("{:016x}", outcome.state_hash));
-        let differs = differences(&metadata, scene, Some(&outcome.device), &asked);
+        let differs = differences(metadata, scene, Some(&outcome.device), &self.asked);
         if same == Some(false) && differs.is_empty() {
             tracing::warn!(
                 "the final state is not the recorded one, and nothing that is known differs; report it"
             );
         }
         RecordingStatement {
-            same_progress: progress.map(|said| said == outcome.progress),
-            same_events: (!events.is_empty()).then(|| Event::are_same(&events, &outcome.events)),
+            same_progress: self.progress.map(|said| said == outcome.progress),
+            same_events: (!self.events.is_empty())
+                .then(|| Event::are_same(&self.events, &outcome.events)),
             program_version: metadata.program_version.clone(),
             device: metadata.parameters.get(DEVICE).cloned(),
             driver: metadata.parameters.get(DRIVER).cloned(),

@@ -141,7 +141,8 @@ impl<'a> Prepared<'a> {
             out: None,
             rubric: &rubric,
         };
-        let kept = keeping::keep_under(&self.args.keep, &self.keeper, &sitting, &report.attempts);
+        let attempts = &report.outcome.attempts;
+        let kept = keeping::keep_under(&self.args.keep, &self.keeper, &sitting, attempts);
         // What could not be kept is at least reported.
         let failure = match kept {
             Ok(kept) => {

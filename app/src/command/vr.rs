@@ -88,7 +88,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         #[cfg(not(feature = "vr"))]
         None => return no_headset(),
     };
-    let mut report = report::report(name, &outcome, stand_in)?;
+    let mut report = report::report(name, outcome, stand_in)?;
     report.watched = watchers.map(Watchers::report);
     prepared.end(report)
 }

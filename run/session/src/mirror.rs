@@ -22,8 +22,6 @@ use super::info::Info;
 pub struct Mirror {
     window: Window,
     shrink: Shrink,
-    /// Display time of the next picture, ns.
-    due: i64,
     title: String,
 }
 
@@ -41,7 +39,6 @@ impl Mirror {
         Ok(Self {
             shrink: Shrink::new(gpu, library, eye, window.longest)?,
             window,
-            due: i64::MIN,
             title: String::new(),
         })
     }
@@ -52,7 +49,6 @@ impl Mirror {
     /// As for [`Mirror::new`].
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
         self.shrink = Shrink::new(gpu, library, eye, self.window.longest)?;
-        self.due = i64::MIN;
         Ok(())
     }
 
@@ -65,13 +61,8 @@ impl Mirror {
         let Some(extent) = self.window.extent() else {
             return Ok(());
         };
-        let every = self.window.every;
-        // Display times are rounded. With this margin it is every third frame at 90 Hz, and never the fourth.
-        if time < self.due.saturating_sub(every / 8) {
-            return Ok(());
-        }
-        self.due = time.max(self.due.saturating_add(every));
-        self.shrink.begin(picture, drawn, extent)
+        let pace = (time, self.window.every);
+        self.shrink.begin(picture, drawn, extent, pace)
     }
 
     /// Hands over what the device is done with; does not wait.

@@ -26,6 +26,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
+use serde::Serialize;
 use vitriol_gpu::Timestamps;
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Language};
@@ -111,51 +112,68 @@ pub struct Options {
     pub student: Option<String>,
 }
 
-/// A session as it ends.
+/// A session as it ends. Serialized, it is the part of the report that needs no computation.
+#[derive(Serialize)]
 pub struct SessionOutcome {
     /// The bench.
+    #[serde(skip)]
     pub bench: Workbench,
     /// Its world.
+    #[serde(skip)]
     pub world: World,
     /// Steps taken.
     pub steps: u64,
     /// Simulated time, s.
+    #[serde(rename = "simulated_s")]
     pub simulated: f64,
     /// Time that was shown as slow motion, s.
+    #[serde(rename = "slow_motion_s")]
     pub slowed: f64,
     /// Frames, those of the warm-up included.
+    #[serde(skip)]
     pub frames: u64,
     /// Display periods without a frame, of those that count.
+    #[serde(skip)]
     pub skipped: u64,
     /// Where the pictures were to be sharp; `None` where the governor decided.
+    #[serde(rename = "foveation", skip_serializing_if = "Option::is_none")]
     pub foveating: Option<Foveating>,
     /// Width and height of the pictures of the runtime's own inset, pixels, where there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub inset: Option<[u32; 2]>,
     /// Times that a session was found again.
     pub renewals: u64,
     /// Times that a device was lost, and the bench was brought back on another.
     pub devices_lost: u32,
     /// Times of the frames that count.
+    #[serde(skip)]
     pub tally: Tally,
     /// What the governor did in the frames that count.
     pub governor: GovernorReport,
     /// What the process held when counting began, and at the end.
+    #[serde(skip)]
     pub holdings: [Option<Holdings>; 2],
     /// How the sound was played.
     pub sound: SoundReport,
-    /// What lies beside the flasks, and acid that touched the user.
+    /// What lies beside the flasks at the end, real mL.
+    #[serde(rename = "spilt_ml")]
     pub spilt: Spilt,
-    /// See [`Contacts`].
+    /// Acid that touched the user.
+    #[serde(rename = "acid_touched")]
     pub contacts: Contacts,
     /// Flasks that broke.
+    #[serde(rename = "flasks_broken")]
     pub broken: u32,
     /// When each action of a first minute was done; `None` without hints.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub first_minute: Option<FirstMinuteReport>,
     /// State of the recording at the end, if there was one.
+    #[serde(rename = "recording", skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordingStatus>,
     /// What was done and what went wrong, from each start of a scene on.
     pub attempts: Vec<Attempt>,
     /// The lesson's result, if there was a lesson.
+    #[serde(rename = "lesson", skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
 }
 

@@ -12,15 +12,12 @@ use super::panel::PANEL;
 use super::reopening::Reopening;
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
+use vitriol_run::EYES_APART;
 use vitriol_xr::track::{Track, TrackSource};
 use vitriol_xr::{
     Fov, Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, PoseSource, SessionState, Shown,
     Side, Targets, Turn, View, depth_extent,
 };
-
-/// Distance between a grown person's eyes, metres: the mean of some thousand adults
-/// (N. Dodgson, 2004).
-const EYES_APART: f32 = 0.063;
 
 /// An eye's frustum, rad: 54° outwards, 40° inwards, 42° up, 55° down, as of a headset whose eyes
 /// see more aside than towards the nose.

@@ -17,8 +17,6 @@ const EVERY: i64 = 1_000_000_000 / VIEW_FPS as i64;
 pub struct View {
     shrink: Shrink,
     coder: Coder,
-    /// Display time of the next picture, ns.
-    due: i64,
     /// When it began: a runtime that is found again has another clock.
     began: Instant,
 }
@@ -32,7 +30,6 @@ impl View {
         Ok(Self {
             shrink: Shrink::new(gpu, library, eye, LONGEST)?,
             coder: Coder::new(port)?,
-            due: i64::MIN,
             began: Instant::now(),
         })
     }
@@ -43,7 +40,6 @@ impl View {
     /// An error of the device.
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
         self.shrink = Shrink::new(gpu, library, eye, LONGEST)?;
-        self.due = i64::MIN;
         Ok(())
     }
 
@@ -53,12 +49,11 @@ impl View {
     /// # Errors
     /// An error of the device.
     pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
-        // As in the mirror: display times are rounded.
-        if !self.coder.is_wanted() || time < self.due.saturating_sub(EVERY / 8) {
+        if !self.coder.is_wanted() {
             return Ok(());
         }
-        self.due = time.max(self.due.saturating_add(EVERY));
-        self.shrink.begin(picture, drawn, [VIEW_SIDE; 2])
+        self.shrink
+            .begin(picture, drawn, [VIEW_SIDE; 2], (time, EVERY))
     }
 
     /// Hands over what the device is done with.

@@ -74,7 +74,6 @@ fn all() -> Vec<(&'static str, Vec<Sound>)> {
         ("glass-on-glass", vec![blow(0.005, [Body::Glass(held); 2])]),
         ("break", vec![Sound::Break(BEAKER)]),
         ("drops-bench", vec![drops(Onto::Bench)]),
-        ("drops-hand", vec![drops(Onto::Hand)]),
         ("drops-wet", vec![drops(Onto::Wet)]),
         ("sizzle", vec![Sound::Sizzle(1.0)]),
         ("most", vec![boil(5.0, [3000.0; 3]), pour(1e-3, 3.0)]),

@@ -49,12 +49,12 @@ pub(crate) fn boil(all: &Bubbles, seconds: f64, random: &mut Random, mut add: im
     let [departures, collapses, bursts] =
         [all.departures, all.collapses, all.bursts].map(f64::from);
     arrivals(seconds, departures, random, |at, random| {
-        add(Voice::after(at, one(all, random).ring(DEPARTS).into()));
+        add(Voice::after(at, one(all, random).ring(DEPARTS)));
     });
     arrivals(seconds, collapses, random, |at, random| {
         let (blow, (rest, strength)) = collapse(all, random);
-        add(Voice::after(at, blow.into()));
-        add(Voice::after(at, rest.ring(strength).into()));
+        add(Voice::after(at, blow));
+        add(Voice::after(at, rest.ring(strength)));
     });
     arrivals(seconds, bursts, random, |at, random| {
         let bubble = one(all, random);
@@ -65,8 +65,8 @@ pub(crate) fn boil(all: &Bubbles, seconds: f64, random: &mut Random, mut add: im
         let size = f64::from(bubble.radius).clamp(RADII[0], RADII[1]);
         let seed = Random::new(random.bits(), 0);
         let spray = Hiss::new(SPRAY * loudness(size), [3500.0, 2.0], [5e-4, 6e-3], seed);
-        add(Voice::after(at, bubble.ring(BURSTS).into()));
-        add(Voice::after(at, spray.into()));
+        add(Voice::after(at, bubble.ring(BURSTS)));
+        add(Voice::after(at, spray));
     });
 }
 

@@ -10,10 +10,6 @@ const TICK: f64 = 0.05;
 const SIZE: f64 = 3e-3;
 const SPEED: f64 = 2.0;
 
-/// Amplitude on something soft over that on something hard, and pitch likewise.
-const SOFT: f64 = 0.4;
-const DULL: f64 = 0.4;
-
 /// Most sounds of one event; more drops are louder.
 const MOST: u32 = 12;
 
@@ -40,8 +36,7 @@ fn size(drops: &Drops) -> (f64, f64) {
 fn tick(drops: &Drops) -> f64 {
     let (diameter, speed) = size(drops);
     let part = diameter / SIZE * speed / SPEED;
-    let soft = if drops.onto == Onto::Hand { SOFT } else { 1.0 };
-    TICK * soft * part * part
+    TICK * part * part
 }
 
 /// Adds ticks, and in a puddle some bubbles.
@@ -54,43 +49,36 @@ pub(crate) fn drops(drops: &Drops, random: &mut Random, mut add: impl FnMut(Voic
     let (diameter, speed) = size(drops);
     // Three over the time in which a drop moves by its own diameter.
     let pitch = (3.0 * speed / diameter).clamp(300.0, 7000.0);
-    let pitch = if drops.onto == Onto::Hand {
-        DULL * pitch
-    } else {
-        pitch
-    };
     for _ in 0..sounds {
         let at = SPREAD * random.number();
         let amplitude = more * tick(drops) * random.between(0.5, 1.0);
         let seed = Random::new(random.bits(), 0);
         let band = [pitch * random.between(0.8, 1.3), 1.5];
         let hiss = Hiss::new(amplitude, band, [2e-4, 1.5e-3], seed);
-        add(Voice::after(at, hiss.into()));
+        add(Voice::after(at, hiss));
         if drops.onto == Onto::Wet && random.number() < BUBBLES {
             let bubble = Bubble {
                 radius: (0.25 * diameter * random.between(0.6, 1.4)) as f32,
                 depth: 0.0,
                 density: 1000.0,
             };
-            add(Voice::after(at + 0.01, bubble.ring(1.0).into()));
+            add(Voice::after(at + 0.01, bubble.ring(1.0)));
         }
     }
 }
 
 /// Adds a hiss with crackles in it.
 pub(crate) fn sizzle(strength: f32, random: &mut Random, mut add: impl FnMut(Voice)) {
-    let loud = SIZZLE * f64::from(strength).clamp(0.0, 1.0);
+    let loud = sizzle_level(strength);
     let seed = Random::new(random.bits(), 0);
-    add(Voice::after(
-        0.0,
-        Hiss::new(loud, SIZZLE_BAND, SIZZLE_TIMES, seed).into(),
-    ));
+    let hiss = Hiss::new(loud, SIZZLE_BAND, SIZZLE_TIMES, seed);
+    add(Voice::after(0.0, hiss));
     for _ in 0..CRACKLES {
         let at = random.between(0.0, 2.0 * SIZZLE_TIMES[1]);
         let seed = Random::new(random.bits(), 0);
         let band = [random.between(3000.0, 9000.0), 1.0];
         let crackle = Hiss::new(loud, band, [1e-4, 2e-3], seed);
-        add(Voice::after(at, crackle.into()));
+        add(Voice::after(at, crackle));
     }
 }
 

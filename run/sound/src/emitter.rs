@@ -70,7 +70,7 @@ impl Emitter {
         match &event.sound {
             Sound::Pour(it) => self.pour = Some(Lasting::new(*it, now, it.lasts)),
             Sound::Bubbles(it) => self.bubbles = Some(Lasting::new(*it, now, it.lasts)),
-            Sound::Bubble(it) => add(Voice::after(0.0, it.ring(1.0).into())),
+            Sound::Bubble(it) => add(Voice::after(0.0, it.ring(1.0))),
             Sound::Strike(it) => strike::strike(it, random, add),
             Sound::Break(it) => strike::shatter(it, random, add),
             Sound::Drops(it) => drops::drops(it, random, add),

@@ -126,8 +126,6 @@ pub struct Drops {
 pub enum Onto {
     /// Something hard and dry.
     Bench,
-    /// Something soft.
-    Hand,
     /// A puddle, in which some drops leave a bubble.
     Wet,
 }

@@ -32,7 +32,6 @@ pub struct Mixer {
     block: [[f32; 2]; BLOCK],
     given: usize,
     listener: Listener,
-    volume: f32,
     /// Events with their sample, those of one sample in the order in which they came.
     waiting: Vec<(u64, Event)>,
     places: [Option<Emitter>; PLACES],
@@ -49,7 +48,6 @@ impl Mixer {
             block: [[0.0; 2]; BLOCK],
             given: BLOCK,
             listener: Listener::default(),
-            volume: 1.0,
             waiting: Vec::new(),
             places: std::array::from_fn(|_| None),
             pool: Pool::default(),
@@ -79,13 +77,6 @@ impl Mixer {
     pub fn listen(&mut self, listener: Listener) {
         if listener.is_sound() {
             self.listener = listener;
-        }
-    }
-
-    /// Sets the volume of everything, from 0 to 4; 1 is as it was made.
-    pub fn set_volume(&mut self, volume: f32) {
-        if volume.is_finite() {
-            self.volume = volume.clamp(0.0, 4.0);
         }
     }
 
@@ -128,8 +119,7 @@ impl Mixer {
             let (pool, listener) = (&mut self.pool, &self.listener);
             place.take_if(|place| !place.render(slot, now, pool, listener, &mut block));
         }
-        let volume = self.volume;
-        self.block = block.map(|sample| self.limiter.limit(sample.map(|it| volume * it)));
+        self.block = block.map(|sample| self.limiter.limit(sample));
     }
 
     /// Index of an event's emitter, which is made if it is new.

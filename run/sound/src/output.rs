@@ -27,7 +27,7 @@ use std::time::Duration;
 use crate::event::Event;
 use crate::listener::Listener;
 use crate::mixer::Mixer;
-use player::{Message, Player};
+use player::Player;
 
 /// Longest that opening may take.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -156,7 +156,7 @@ fn known(micros: &AtomicU64) -> Option<Duration> {
 /// A mixer that is played. It ends when this is dropped.
 #[derive(Debug)]
 pub struct Output {
-    frames: Option<SyncSender<Message>>,
+    frames: Option<SyncSender<(Listener, Vec<Event>)>>,
     shared: Arc<Shared>,
     _stop: Option<system::Stop>,
 }
@@ -172,10 +172,10 @@ impl Output {
             Device::Default => None,
             Device::Named(name) => Some(name),
         };
-        let (frames, messages) = sync_channel(FRAMES);
+        let (frames, waiting) = sync_channel(FRAMES);
         let shared = Shared::new(State::Playing);
         let (ready, opened) = channel();
-        let (player, told) = (Player::new(mixer, messages), Arc::clone(&shared));
+        let (player, told) = (Player::new(mixer, waiting), Arc::clone(&shared));
         let work = move || system::play(name.as_deref(), player, &told, &ready);
         let thread = std::thread::Builder::new().name("sound".into());
         thread.spawn(work).map_err(OutputError::Thread)?;
@@ -206,18 +206,9 @@ impl Output {
     /// Hands over a display frame: the head's pose, and the new events. Times are those of the display's clock; new events sound as soon
     /// as possible. Never waits: where the audio thread is a second behind, the frame is dropped.
     pub fn frame(&self, listener: Listener, events: Vec<Event>) {
-        self.say(Message::Frame(listener, events));
-    }
-
-    /// Sets the volume of everything, from 0 to 4; 1 is as it was made.
-    pub fn set_volume(&self, volume: f32) {
-        self.say(Message::Volume(volume));
-    }
-
-    fn say(&self, message: Message) {
         if let Some(frames) = &self.frames {
             // A full queue or an ended thread: nothing can be heard anyway.
-            let _ = frames.try_send(message);
+            let _ = frames.try_send((listener, events));
         }
     }
 

@@ -136,7 +136,7 @@ pub(crate) fn pour(pour: &Pour, seconds: f64, random: &mut Random, mut add: impl
             density: pour.density,
         };
         let strength = random.between(SOFTEST, 1.0);
-        add(Voice::after(at, bubble.ring(strength).into()));
+        add(Voice::after(at, bubble.ring(strength)));
     });
 }
 

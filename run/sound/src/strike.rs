@@ -74,25 +74,21 @@ fn ring(glass: &Glass, impulse: f64, touch: f64, add: &mut impl FnMut(Voice)) {
         let frequency = cup.frequency(waves);
         let speed = impulse / cup.mass(waves) * excited(frequency, touch);
         let damping = PI * frequency * loss;
-        add(Voice::after(
-            0.0,
-            Ring::new(RING * speed, frequency, damping).into(),
-        ));
+        let tone = Ring::new(RING * speed, frequency, damping);
+        add(Voice::after(0.0, tone));
     }
 }
 
 fn thump(impulse: f64, touch: f64, random: &mut Random, add: &mut impl FnMut(Voice)) {
     for [frequency, damping, loud] in BENCH {
         let amplitude = loud * impulse * excited(frequency, touch);
-        add(Voice::after(
-            0.0,
-            Ring::new(amplitude, frequency, damping).into(),
-        ));
+        let tone = Ring::new(amplitude, frequency, damping);
+        add(Voice::after(0.0, tone));
     }
     let seed = Random::new(random.bits(), 0);
     let band = [0.3 / touch, 2.0];
     let knock = Hiss::new(KNOCK * impulse, band, [touch, 4.0 * touch], seed);
-    add(Voice::after(0.0, knock.into()));
+    add(Voice::after(0.0, knock));
 }
 
 /// Adds the voices of a glass that breaks: a crack, and shards that ring as small plates do, fewer and fewer.
@@ -100,16 +96,14 @@ pub(crate) fn shatter(glass: &Glass, random: &mut Random, mut add: impl FnMut(Vo
     let loud = LOUDEST_BREAK * (Cup::of(glass).whole() / 0.1).sqrt().clamp(0.2, 2.0);
     let seed = Random::new(random.bits(), 0);
     let crack = Hiss::new(2.0 * loud, [4500.0, 2.5], [2e-4, 0.02], seed);
-    add(Voice::after(0.0, crack.into()));
+    add(Voice::after(0.0, crack));
     for _ in 0..SHARDS {
         let late = (0.25 * SHATTER * random.wait()).min(SHATTER);
         let frequency = 2500.0 * libm::exp(1.5 * random.number());
         let damping = PI * frequency * 5.0 * LOSS;
         let amplitude = loud * random.between(0.1, 0.5) * libm::exp(-2.0 * late / SHATTER);
-        add(Voice::after(
-            late,
-            Ring::new(amplitude, frequency, damping).into(),
-        ));
+        let tone = Ring::new(amplitude, frequency, damping);
+        add(Voice::after(late, tone));
     }
 }
 

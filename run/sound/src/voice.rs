@@ -132,8 +132,9 @@ pub(crate) struct Voice {
 
 impl Voice {
     /// A voice that begins after `seconds`.
-    pub(crate) fn after(seconds: f64, tone: Tone) -> Self {
+    pub(crate) fn after(seconds: f64, tone: impl Into<Tone>) -> Self {
         let wait = (seconds.clamp(0.0, 10.0) * f64::from(RATE)) as u32;
+        let tone = tone.into();
         Self { tone, wait }
     }
 

@@ -3,25 +3,19 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_lesson::Attempt;
-use vitriol_lesson::procedure::Verdict;
 use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Blame, DeviceStatement, Failure, device};
 
 use crate::command::keeping::Kept;
 use vitriol_live::WatchReport;
 use vitriol_run::Spread;
-use vitriol_run::run::RecordingStatus;
-use vitriol_session::first_minute::FirstMinuteReport;
 use vitriol_session::foveating::Foveating;
-use vitriol_session::session::{
-    Contacts, FramesWith, GovernorReport, SessionOutcome, SoundReport, Spilt, WARM_UP,
-};
+use vitriol_session::session::{FramesWith, GovernorReport, SessionOutcome, WARM_UP};
 use vitriol_session::stand_in::{Ready, StandInSpec};
 use vitriol_session::tally::{FramesReport, Holdings, WaitsReport};
 
 /// What `vitriol vr` and `vitriol desk` print at the session's end.
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 pub struct SessionReport {
     /// The headset, or what was in its place.
     headset: String,
@@ -32,24 +26,11 @@ pub struct SessionReport {
     nan_particles: u64,
     /// Frames that count.
     frames: u64,
-    steps: u64,
-    simulated_s: f64,
-    /// Time that was shown as slow motion, s.
-    slow_motion_s: f64,
     /// Display periods without a picture of their own.
     missed_frames: u64,
-    /// Times that a lost session was found again.
-    renewals: u64,
-    /// Times that a device was lost and the bench was brought back on another.
-    devices_lost: u32,
-    /// What was done to keep pace with the display.
-    governor: GovernorReport,
-    /// Where the pictures were to be sharp; absent where the governor decided.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    foveation: Option<Foveating>,
-    /// Width and height of the pictures of the runtime's own inset (quad views), pixels; absent where it had none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    inset: Option<[u32; 2]>,
+    /// The session's outcome, whose keys stand beside these.
+    #[serde(flatten)]
+    pub outcome: SessionOutcome,
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -80,33 +61,15 @@ pub struct SessionReport {
     /// From the hand's pose to the flask in the picture, displayed frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_frames: Option<Spread>,
-    /// Sound, and how much of it is buffered.
-    sound: SoundReport,
-    /// What lies beside the flasks at the end, real mL.
-    spilt_ml: Spilt,
-    /// Acid that touched the user.
-    acid_touched: Contacts,
-    /// Flasks that broke.
-    flasks_broken: u32,
-    /// What was done and what went wrong, from each start of a scene on.
-    pub attempts: Vec<Attempt>,
-    /// What the lesson came to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lesson: Option<Verdict>,
     /// What was kept under a pseudonym.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kept: Option<Kept>,
     /// What pages saw that looked meanwhile.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub watched: Option<WatchReport>,
-    /// Which of the signs' four steps were done, and when.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    first_minute: Option<FirstMinuteReport>,
     /// What the process held after warming up and at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     holdings: Option<[Holdings; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recording: Option<RecordingStatus>,
     state_hash: String,
 }
 
@@ -116,7 +79,7 @@ pub struct SessionReport {
 /// An error of the device.
 pub fn report(
     headset: String,
-    outcome: &SessionOutcome,
+    outcome: SessionOutcome,
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
     let world = &outcome.world;
@@ -138,15 +101,7 @@ pub fn report(
         lost_particles: measured.lost_particles,
         nan_particles: measured.nan_particles,
         frames: outcome.frames.saturating_sub(WARM_UP),
-        steps: outcome.steps,
-        simulated_s: outcome.simulated,
-        slow_motion_s: outcome.slowed,
         missed_frames: outcome.skipped + late.count() as u64,
-        renewals: outcome.renewals,
-        devices_lost: outcome.devices_lost,
-        governor: outcome.governor.clone(),
-        foveation: outcome.foveating,
-        inset: outcome.inset,
         cpu_ms: Spread::of(&tally.cpu_ms),
         frames_alone: tally.alone.report(),
         frames_while_building: tally.building.report(),
@@ -157,21 +112,14 @@ pub fn report(
         pose_age_ms: Spread::of(&tally.pose_age_ms),
         input_to_flask_steps: Spread::of(&tally.delay_steps),
         input_to_flask_frames: Spread::of(&tally.delay_frames),
-        sound: outcome.sound.clone(),
-        spilt_ml: outcome.spilt,
-        acid_touched: outcome.contacts,
-        flasks_broken: outcome.broken,
-        attempts: outcome.attempts.clone(),
-        lesson: outcome.verdict.clone(),
         kept: None,
         watched: None,
-        first_minute: outcome.first_minute,
         holdings: match outcome.holdings {
             [Some(before), Some(after)] => Some([before, after]),
             _ => None,
         },
-        recording: outcome.recorded.clone(),
         state_hash: format!("{:016x}", world.snapshot().other()?.solver.hash()),
+        outcome,
     })
 }
 
@@ -205,41 +153,39 @@ fn governed(governor: &GovernorReport) -> String {
 
 /// "3 times, 0.12 ms in all, 0.08 ms at most".
 fn waited(waits: &WaitsReport) -> String {
-    let WaitsReport {
-        waits,
-        total_ms,
-        longest_ms,
-    } = waits;
-    if *waits == 0 {
+    if waits.waits == 0 {
         return "never".into();
     }
     format!(
-        "{}, {total_ms:.3} ms in all, {longest_ms:.3} ms at most",
-        count(*waits, "time")
+        "{}, {:.3} ms in all, {:.3} ms at most",
+        count(waits.waits, "time"),
+        waits.total_ms,
+        waits.longest_ms
     )
 }
 
 /// It in words, as the terminal shows it.
 pub fn describe(session: &SessionReport) -> String {
+    let outcome = &session.outcome;
     let mut text = format!(
         "{}\n{}, {}; {}, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
          {}, {} missed\n",
         session.headset,
         session.scene,
         count(session.fluid_particles, "particle"),
-        count(session.steps, "step"),
-        three_digits(session.simulated_s),
-        three_digits(session.slow_motion_s),
+        count(outcome.steps, "step"),
+        three_digits(outcome.simulated),
+        three_digits(outcome.slowed),
         session.lost_particles,
         session.nan_particles,
         count(session.frames, "frame"),
         session.missed_frames,
     );
-    text += &governed(&session.governor);
-    if let Some([width, height]) = session.inset {
+    text += &governed(&outcome.governor);
+    if let Some([width, height]) = outcome.inset {
         text += &format!("the runtime's quad views, with insets of {width} × {height} pixels\n");
     }
-    text += match session.foveation.filter(|_| session.inset.is_none()) {
+    text += match outcome.foveating.filter(|_| outcome.inset.is_none()) {
         Some(Foveating::Off) => "every pixel shaded\n",
         Some(Foveating::Eye) => {
             "every pixel shaded about where the user looks, if known, fewer beyond\n"
@@ -267,18 +213,12 @@ pub fn describe(session: &SessionReport) -> String {
     ];
     text += "                                median      95 %      99 %    99.9 %      most\n";
     for (name, spread) in rows {
-        if let Some(Spread {
-            p50,
-            p95,
-            p99,
-            p999,
-            max,
-        }) = spread
-        {
+        if let Some(it) = spread {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {p999:>9.3} {max:>9.3}"
+                "{name:<28} {:>9.3} {:>9.3} {:>9.3} {:>9.3} {:>9.3}",
+                it.p50, it.p95, it.p99, it.p999, it.max
             );
         }
     }
@@ -286,19 +226,13 @@ pub fn describe(session: &SessionReport) -> String {
         ("alone", session.frames_alone),
         ("while one builds", session.frames_while_building),
     ] {
-        if let Some(FramesReport {
-            frames,
-            queue_lock,
-            memory_lock,
-            ..
-        }) = frames
-        {
+        if let Some(it) = frames {
             let _ = writeln!(
                 text,
                 "{} {kind}: waited for the queue {}, for memory {}",
-                count(frames, "frame"),
-                waited(&queue_lock),
-                waited(&memory_lock)
+                count(it.frames, "frame"),
+                waited(&it.queue_lock),
+                waited(&it.memory_lock)
             );
         }
     }
@@ -309,7 +243,7 @@ pub fn describe(session: &SessionReport) -> String {
             period - ready.p99
         );
     }
-    let sound = &session.sound;
+    let sound = &outcome.sound;
     let _ = match (&sound.buffered_ms, &sound.cause) {
         (Some(held), None) => writeln!(
             text,
@@ -329,7 +263,7 @@ pub fn describe(session: &SessionReport) -> String {
             after.handles
         );
     }
-    if let Some(recording) = &session.recording {
+    if let Some(recording) = &outcome.recorded {
         let _ = writeln!(
             text,
             "recorded {}, not {}{}",
@@ -341,14 +275,13 @@ pub fn describe(session: &SessionReport) -> String {
                 .map_or_else(String::new, |cause| format!(": {cause}"))
         );
     }
-    if let Some(verdict) = &session.lesson {
-        let Verdict {
-            lesson, points, of, ..
-        } = verdict;
+    if let Some(verdict) = &outcome.verdict {
         let _ = writeln!(
             text,
-            "lesson {lesson}: {points} of {}",
-            count((*of).into(), "point")
+            "lesson {}: {} of {}",
+            verdict.lesson,
+            verdict.points,
+            count(verdict.of.into(), "point")
         );
     }
     let _ = write!(text, "state {}", session.state_hash);

@@ -199,18 +199,19 @@ fn each_announcement_has_a_line() {
     }
 }
 
-/// Each character of each table has a picture of its own.
+/// Each character of each table has a picture of its own: the panel's and the lessons'.
 #[test]
 fn every_text_of_the_panel_can_be_shown() {
     let context = context();
     let font = FontId::proportional(SIZE);
-    for language in Language::ALL {
-        let table = std::fs::read_to_string(format!("../texts/{language}.toml")).unwrap();
+    let folders = ["../texts", "../lesson/texts"].into_iter();
+    for (folder, language) in folders.flat_map(|it| Language::ALL.map(|language| (it, language))) {
+        let table = std::fs::read_to_string(format!("{folder}/{language}.toml")).unwrap();
         let missing: Vec<char> = context.fonts_mut(|fonts| {
             let texts = table.lines().filter(|line| !line.starts_with('#'));
             let all = texts.flat_map(str::chars).filter(|it| !it.is_whitespace());
             all.filter(|it| !fonts.has_glyph(&font, *it)).collect()
         });
-        assert!(missing.is_empty(), "{language}: {missing:?}");
+        assert!(missing.is_empty(), "{folder}/{language}: {missing:?}");
     }
 }

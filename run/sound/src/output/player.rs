@@ -1,4 +1,4 @@
-//! The audio thread's mixer and messages.
+//! The audio thread's mixer and the display frames that it takes in.
 
 use std::sync::mpsc::Receiver;
 
@@ -7,37 +7,27 @@ use crate::event::Event;
 use crate::listener::Listener;
 use crate::mixer::Mixer;
 
-/// A message to the audio thread.
-#[derive(Debug)]
-pub(super) enum Message {
-    Frame(Listener, Vec<Event>),
-    Volume(f32),
-}
-
 /// Fills buffers with the mixer's samples.
 #[derive(Debug)]
 pub(super) struct Player {
     mixer: Mixer,
-    messages: Receiver<Message>,
+    frames: Receiver<(Listener, Vec<Event>)>,
     clock: Clock,
 }
 
 impl Player {
-    pub(super) fn new(mixer: Mixer, messages: Receiver<Message>) -> Self {
+    pub(super) fn new(mixer: Mixer, frames: Receiver<(Listener, Vec<Event>)>) -> Self {
         Self {
             mixer,
-            messages,
+            frames,
             clock: Clock::default(),
         }
     }
 
-    /// Takes in all waiting messages and renders the next samples.
+    /// Takes in all waiting frames and renders the next samples.
     pub(super) fn fill(&mut self, out: &mut [[f32; 2]]) {
-        while let Ok(message) = self.messages.try_recv() {
-            match message {
-                Message::Frame(listener, events) => self.take(listener, events),
-                Message::Volume(volume) => self.mixer.set_volume(volume),
-            }
+        while let Ok((listener, events)) = self.frames.try_recv() {
+            self.take(listener, events);
         }
         self.mixer.render(out);
     }

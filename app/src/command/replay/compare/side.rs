@@ -1,7 +1,5 @@
 //! One of two experiments that keep up with each other.
 
-use std::sync::Arc;
-
 use glam::Vec3;
 use vitriol_lesson::{Attempt, layered};
 use vitriol_run::captions::{self, Caption};
@@ -9,7 +7,6 @@ use vitriol_run::{
     Colour, DeviceStatement, Experiment, FILM_FPS, Failure, Look, Sample, Setup, SimulatedTime,
     Span, Stepping, boiling, sample_is_due,
 };
-use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
@@ -49,22 +46,14 @@ impl Side {
         prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
     ) -> Result<Self, Failure> {
         let experiment = prepare(&Setup {
-            scene: &plan.scene,
-            scene_name: &plan.name,
-            scenes: &plan.scenes,
-            preset: plan.preset,
-            seed: plan.seed,
-            device: args.device.as_deref(),
             picture: Some(HALF),
             colours: vec![Colour::Liquid],
-            eyes: 1,
             filter: args.filter,
             tint: args.drawn.tint,
             room: args.drawn.room,
-            head: None,
             directed: true,
             look: (plan.scene.scale.length_scale == 1.0).then_some(BENCH),
-            shaders: Arc::new(Library::embedded()),
+            ..plan.setup(args.device.as_deref())
         })?;
         let mut side = Self {
             name: plan.name,

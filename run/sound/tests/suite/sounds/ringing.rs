@@ -73,13 +73,9 @@ fn beaker(filled: f32) -> Glass {
 fn clink(filled: f32) -> Vec<f64> {
     let blow = Strike {
         impulse: 0.005,
-        bodies: [Body::Glass(beaker(filled)), Body::Dull],
-    };
-    let glass = Strike {
         bodies: [Body::Glass(beaker(filled)); 2],
-        ..blow
     };
-    mono(&render(&[ahead(0.0, Sound::Strike(glass))], 0.2))
+    mono(&render(&[ahead(0.0, Sound::Strike(blow))], 0.2))
 }
 
 /// The strongest frequency between two, in steps of 1 Hz.
