@@ -143,7 +143,7 @@ pub struct Camera {
     /// Drops that lie where they came to rest, and splashes on the goggles.
     marks: Marks,
     /// Whether it is where the user's eyes are, behind the goggles.
-    is_head: bool,
+    pub(crate) is_head: bool,
 }
 
 impl Camera {

@@ -36,6 +36,11 @@ const ASIDE: f32 = 0.4;
 /// The camera follows a glass that is moved with this time constant, s: it lets a swirl be seen and shows no trembling.
 const FOLLOWS: f64 = 0.5;
 
+/// How much of the way to a glass the camera goes in that time, s.
+pub(crate) fn followed(elapsed: f64) -> f32 {
+    (1.0 - (-elapsed / FOLLOWS).exp()) as f32
+}
+
 /// A director of a scene's film.
 #[derive(Debug)]
 pub struct Director {
@@ -118,8 +123,7 @@ impl Director {
             self.turn = wanted.map_or(0.0, |flask| turn(EYE, &glass(world, flask), hands));
         }
         if let Some((flask, foot)) = &mut self.close {
-            let share = 1.0 - (-frame_time / FOLLOWS).exp();
-            *foot = foot.lerp(world.poses()[*flask].position, share as f32);
+            *foot = foot.lerp(world.poses()[*flask].position, followed(frame_time));
         }
     }
 
@@ -133,7 +137,8 @@ impl Director {
         let Some((flask, foot)) = self.close else {
             return self.wide;
         };
-        close_to(foot, size(scene, flask), self.turn, aspect)
+        let across = if aspect > 1.0 { ASIDE } else { 0.5 };
+        close_to(foot, size(scene, flask), self.turn, (aspect, across))
     }
 
     /// How far the eye is turned about the glass that is seen closely, radians.
@@ -152,8 +157,14 @@ impl Director {
     }
 }
 
-/// A glass of that height and radius (m) with its foot there, from the eyes of a student who sits before it.
-fn close_to(foot: Vec3, [height, radius]: [f32; 2], turn: f32, aspect: f32) -> View {
+/// A glass of that height and radius (m) with its foot there, from the eyes of a student who sits before it; `across` is where its middle
+/// is in the picture's width.
+pub(crate) fn close_to(
+    foot: Vec3,
+    [height, radius]: [f32; 2],
+    turn: f32,
+    (aspect, across): (f32, f32),
+) -> View {
     let eye = foot + Quat::from_rotation_y(turn) * EYE;
     let middle = foot + 0.5 * height * Vec3::Y;
     let away = (middle - eye).normalize();
@@ -161,16 +172,15 @@ fn close_to(foot: Vec3, [height, radius]: [f32; 2], turn: f32, aspect: f32) -> V
     let fills = height * away.with_y(0.0).length() + 2.0 * radius * away.y.abs();
     let picture = fills / FILLED;
     let right = away.cross(Vec3::Y).normalize();
-    let aside = if aspect > 1.0 { 0.5 - ASIDE } else { 0.0 };
     let target = middle
         + right.cross(away) * ((0.5 - BELOW - 0.5 * FILLED) * picture)
-        + right * (aside * aspect * picture);
+        + right * ((0.5 - across) * aspect * picture);
     let field = 2.0 * (0.5 * picture / target.distance(eye)).atan();
     View::look_at(eye, target, Fov::symmetric(field, aspect))
 }
 
 /// A flask's height and outer radius, m.
-fn size(scene: &Scene, flask: usize) -> [f32; 2] {
+pub(crate) fn size(scene: &Scene, flask: usize) -> [f32; 2] {
     let profile = &scene.flasks[flask].profile;
     [profile.rim_height(), profile.outer_radius()].map(|it| it as f32)
 }
@@ -184,7 +194,7 @@ fn glass(world: &World, flask: usize) -> Glass {
 }
 
 /// The flask with the most gas, of those that boil.
-fn boiling(seen: &LastSeen) -> Option<usize> {
+pub(crate) fn boiling(seen: &LastSeen) -> Option<usize> {
     let gas = |flask: usize| seen.flasks[flask].bubbles.volume;
     // Air that a stream takes down does not boil.
     let boils = |flask: &usize| {
@@ -199,7 +209,7 @@ fn boiling(seen: &LastSeen) -> Option<usize> {
 }
 
 /// The flask that stands under the lip of one that is held and tilted.
-fn poured_into(world: &World) -> Option<usize> {
+pub(crate) fn poured_into(world: &World) -> Option<usize> {
     let scene = world.scene();
     let flasks: Vec<Affine3A> = world.poses().iter().map(affine).collect();
     let lips = (0..flasks.len()).filter_map(|flask| {
@@ -230,32 +240,34 @@ mod tests {
     use super::*;
 
     /// A beaker of 250 mL (95 mm × 70 mm, ISO 3819) fills two thirds of the picture's height, and its lowest point is 5 % above the
-    /// picture's edge: seen from afar within the perspective's 3 %.
+    /// picture's edge: seen from afar within the perspective's 3 %. Across it is where it is asked for.
     #[test]
     fn a_glass_fills_two_thirds_of_the_picture() {
         let (height, radius) = (0.095_f32, 0.035_f32);
         let foot = Vec3::new(0.12, 0.75, -0.4);
-        let view = close_to(foot, [height, radius], 0.0, 16.0 / 9.0);
-        let clip = view.clip_from_scaled(1.0);
         let ring = |level: f32| {
             (0..64).map(move |n| {
                 let (sin, cos) = (n as f32 * std::f32::consts::TAU / 64.0).sin_cos();
                 foot + Vec3::new(radius * cos, level, radius * sin)
             })
         };
-        let heights = ring(0.0)
-            .chain(ring(height))
-            .map(|at| clip.project_point3(at).y);
-        let (lowest, highest) = heights.fold((f32::MIN, f32::MAX), |(low, high), y| {
-            (low.max(y), high.min(y))
-        });
-        // Clip space is 2 high, and +Y is down.
-        assert!(
-            (0.5 * (lowest - highest) - FILLED).abs() < 0.02,
-            "{lowest} {highest}"
-        );
-        assert!((0.5 * (1.0 - lowest) - BELOW).abs() < 0.03, "{lowest}");
-        let middle = clip.project_point3(foot + 0.5 * height * Vec3::Y);
-        assert!((0.5 * (1.0 + middle.x) - ASIDE).abs() < 0.01, "{middle}");
+        for (aspect, across) in [(16.0 / 9.0, ASIDE), (4.0 / 3.0, 0.5), (0.9, 0.5)] {
+            let view = close_to(foot, [height, radius], 0.0, (aspect, across));
+            let clip = view.clip_from_scaled(1.0);
+            let heights = ring(0.0)
+                .chain(ring(height))
+                .map(|at| clip.project_point3(at).y);
+            let (lowest, highest) = heights.fold((f32::MIN, f32::MAX), |(low, high), y| {
+                (low.max(y), high.min(y))
+            });
+            // Clip space is 2 high, and +Y is down.
+            assert!(
+                (0.5 * (lowest - highest) - FILLED).abs() < 0.02,
+                "{lowest} {highest}"
+            );
+            assert!((0.5 * (1.0 - lowest) - BELOW).abs() < 0.03, "{lowest}");
+            let middle = clip.project_point3(foot + 0.5 * height * Vec3::Y);
+            assert!((0.5 * (1.0 + middle.x) - across).abs() < 0.01, "{middle}");
+        }
     }
 }

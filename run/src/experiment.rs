@@ -40,6 +40,15 @@ pub trait Experiment {
     /// An error of the device.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
 
+    /// Draws the state now as it is seen from close to the glass that matters, `elapsed` seconds after the last such picture, as
+    /// [`Experiment::picture`] does; `None` where no pictures were asked for.
+    ///
+    /// # Errors
+    /// An error of the device.
+    fn close_up(&mut self, _elapsed: f64) -> Result<Option<Vec<u8>>, Failure> {
+        Ok(None)
+    }
+
     /// What the state now is worth to a film.
     fn worth(&self) -> Worth {
         Worth::default()

@@ -16,6 +16,7 @@ use vitriol_xr::{Pose, PoseFrame, Switch};
 
 use crate::action::Action;
 use crate::camera::{Camera, Colour, Look, Shot};
+use crate::close_up::CloseUp;
 use crate::device;
 use crate::director::Director;
 use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken, Worth};
@@ -153,6 +154,7 @@ pub struct Laboratory {
     directed: bool,
     director: Option<Director>,
     inset: Option<Inset>,
+    close_up: CloseUp,
     seed: u64,
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
@@ -203,6 +205,7 @@ impl Laboratory {
             follows_head: setup.head.is_some(),
             directed: setup.directed,
             inset: None,
+            close_up: CloseUp::default(),
             seed: setup.seed,
             shaders: setup.shaders.clone(),
             lost: 0,
@@ -285,6 +288,7 @@ impl Laboratory {
         self.film = camera(&self.run.world, &self.shaders, self.shot, &self.colours)?;
         self.director = director(self.directed, &scene, self.film.as_ref());
         self.inset = None;
+        self.close_up = CloseUp::default();
         (self.departures, self.start) = (Departures::default(), None);
         self.switched = Some(name.to_owned());
         Ok(())
@@ -380,6 +384,16 @@ impl Experiment for Laboratory {
             }
         }
         Ok(&self.picture)
+    }
+
+    fn close_up(&mut self, elapsed: f64) -> Result<Option<Vec<u8>>, Failure> {
+        let (Some(camera), Some(&colour)) = (&mut self.film, self.colours.first()) else {
+            return Ok(None);
+        };
+        let (world, [width, height]) = (&self.run.world, camera.renderer.extent());
+        let aspect = width as f32 / height as f32;
+        let view = (self.close_up).look(world, self.run.seen(), elapsed, aspect);
+        camera.shoot_from(view, world, colour).map(Some)
     }
 
     fn worth(&self) -> Worth {

@@ -181,6 +181,12 @@ fn a_replay_is_watched_and_held() {
     std::thread::sleep(std::time::Duration::from_millis(500));
     assert_eq!(tab.eval(&time), held);
     assert_ne!(held, "1.0 s");
+    // The glass from close by is drawn while time is held, too.
+    tab.eval(&format!("{}.click()", at("close-up")));
+    tab.until(&format!(
+        "{}.textContent === 'JPEG, 960 × 540'",
+        at("stream")
+    ));
     tab.eval(&format!("{}.click()", at("pause")));
     tab.until(&format!("{time} === '1.0 s'"));
     let report = replay.object();

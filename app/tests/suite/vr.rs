@@ -1,6 +1,7 @@
 //! Sessions on the stand-in, with the validation layer on, and what their recordings replay to.
 
 mod breaks;
+mod close_up;
 pub mod common;
 #[cfg(target_os = "linux")]
 mod console;

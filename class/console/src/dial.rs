@@ -92,6 +92,8 @@ pub struct Link {
 struct Outgoing {
     state: Mutex<Option<State>>,
     card: Mutex<Option<Bytes>>,
+    /// Apart from the others: each stands alone, and among them would end a group of H.264.
+    close_up: Mutex<Option<Bytes>>,
     pictures: Mutex<Pictures>,
     changed: Notify,
 }
@@ -110,10 +112,14 @@ impl Sink for Out {
 
     fn picture(&mut self, gap: bool, picture: Arc<EncodedPicture>) {
         let message = Bytes::from(picture.to_message());
-        if picture.codec == Codec::Card {
-            *lock(&self.outgoing.card) = Some(message);
-        } else if lock(&self.outgoing.pictures).push(gap, &picture, message) {
-            self.inbox.ask_key();
+        match picture.codec {
+            Codec::Card => *lock(&self.outgoing.card) = Some(message),
+            Codec::CloseUp => *lock(&self.outgoing.close_up) = Some(message),
+            Codec::H264 | Codec::Jpeg => {
+                if lock(&self.outgoing.pictures).push(gap, &picture, message) {
+                    self.inbox.ask_key();
+                }
+            }
         }
         self.outgoing.changed.notify_one();
     }
@@ -223,8 +229,9 @@ impl Dialler {
                 Ok(Ok(socket)) => {
                     let begun = Instant::now();
                     lock(&self.outgoing.pictures).restart();
-                    // A card from before the connection was lost is old, and the hub would show it as new.
+                    // A picture from before the connection was lost is old, and the hub would show it as new.
                     *lock(&self.outgoing.card) = None;
+                    *lock(&self.outgoing.close_up) = None;
                     *lock(&self.status) = LinkStatus::Connected;
                     self.talk(socket).await;
                     // A hub that ends each connection at once is not asked several times a second.
@@ -307,8 +314,9 @@ impl Dialler {
                     let state = lock(&self.outgoing.state).take().map(Box::new);
                     let state = state.and_then(|state| text(&FromStudent::State { state }).ok());
                     let card = || lock(&self.outgoing.card).take().map(Message::Binary);
+                    let close_up = || lock(&self.outgoing.close_up).take().map(Message::Binary);
                     let picture = || lock(&self.outgoing.pictures).pop().map(Message::Binary);
-                    match state.or_else(card).or_else(picture) {
+                    match state.or_else(card).or_else(close_up).or_else(picture) {
                         Some(message) => message,
                         None => {
                             self.outgoing.changed.notified().await;
@@ -345,8 +353,13 @@ impl Dialler {
                     jpeg,
                     key,
                     card,
+                    close_up,
                 }) => {
-                    self.inbox.want(Wanted { h264, jpeg });
+                    self.inbox.want(Wanted {
+                        h264,
+                        jpeg,
+                        close_up,
+                    });
                     if key {
                         self.inbox.ask_key();
                     }

@@ -33,6 +33,7 @@ fn student() -> Student {
             most: 2.0,
         }),
         replays: false,
+        close_up: true,
     }
 }
 
@@ -125,6 +126,13 @@ fn what_is_said_is_understood() {
         codec: Some(Codec::Jpeg),
     };
     assert_eq!(page(r#"{"say":"pictures","codec":"jpeg"}"#), Some(pictures));
+    let close_up = FromPage::Pictures {
+        codec: Some(Codec::CloseUp),
+    };
+    assert_eq!(
+        page(r#"{"say":"pictures","codec":"close-up"}"#),
+        Some(close_up)
+    );
 }
 
 #[test]
@@ -235,9 +243,9 @@ fn the_longest_state_fits_and_a_longer_one_does_not() {
     assert!(serde_json::from_value::<State>(value).is_err());
 }
 
-/// A state as programs of the version before send it has no points. What they are sent has nothing that they would refuse.
+/// A state as programs of version 3 send it has no points. What they and those of version 4 are sent has nothing that they would refuse.
 #[test]
-fn messages_of_the_version_before_are_read() {
+fn messages_of_versions_before_are_read() {
     let mut value = serde_json::to_value(full()).unwrap();
     value.as_object_mut().unwrap().remove("points").unwrap();
     let text = format!(r#"{{"say":"state","state":{value}}}"#);
@@ -246,17 +254,28 @@ fn messages_of_the_version_before_are_read() {
     };
     assert_eq!(state.points, None);
     assert_eq!(state.incidents.len(), 32);
-    let wanted = |card| ToStudent::Wanted {
+    let wanted = |card, close_up| ToStudent::Wanted {
         h264: true,
         jpeg: false,
         key: false,
         card,
+        close_up,
     };
     let before = r#"{"say":"wanted","h264":true,"jpeg":false,"key":false}"#;
-    assert_eq!(serde_json::to_string(&wanted(false)).unwrap(), before);
-    assert_eq!(read::<ToStudent>(before, MOST_STATE), Some(wanted(false)));
-    let now = serde_json::to_string(&wanted(true)).unwrap();
-    assert_eq!(read::<ToStudent>(&now, MOST_STATE), Some(wanted(true)));
+    assert_eq!(
+        serde_json::to_string(&wanted(false, false)).unwrap(),
+        before
+    );
+    assert_eq!(
+        read::<ToStudent>(before, MOST_STATE),
+        Some(wanted(false, false))
+    );
+    for (card, close_up) in [(true, false), (false, true)] {
+        let now = serde_json::to_string(&wanted(card, close_up)).unwrap();
+        assert!(now.contains("card") == card && now.contains("close_up") == close_up);
+        let again = read::<ToStudent>(&now, MOST_STATE);
+        assert_eq!(again, Some(wanted(card, close_up)));
+    }
     // A card is no live view that a page could ask for.
     assert_eq!(page(r#"{"say":"pictures","codec":"card"}"#), None);
 }
@@ -290,7 +309,9 @@ proptest! {
     #[test]
     fn a_picture_arrives_as_it_went(is_key: bool, width: u16, height: u16, time_us: u64,
         bytes in proptest::collection::vec(any::<u8>(), 1..50)) {
-        let picture = EncodedPicture { codec: Codec::H264, is_key, size: [width, height], time_us, bytes };
-        prop_assert_eq!(EncodedPicture::from_message(&picture.to_message()), Some(picture));
+        for codec in [Codec::H264, Codec::Jpeg, Codec::CloseUp] {
+            let picture = EncodedPicture { codec, is_key, size: [width, height], time_us, bytes: bytes.clone() };
+            prop_assert_eq!(EncodedPicture::from_message(&picture.to_message()), Some(picture));
+        }
     }
 }

@@ -7,6 +7,8 @@ pub const MOST_PICTURE: usize = 4 << 20;
 
 /// The first byte of a message with a picture for a card.
 const CARD_MARK: u8 = 3;
+/// That of one with a picture from close to the glass.
+const CLOSE_UP_MARK: u8 = 4;
 
 /// Bytes before a picture's own on a socket.
 pub(crate) const HEAD: usize = 16;
@@ -33,13 +35,15 @@ pub enum Codec {
     /// A small JPEG file for a card of the class. No page asks for it by name.
     #[serde(skip_deserializing)]
     Card,
+    /// A JPEG file of the glass from close by, in place of the student's view.
+    CloseUp,
 }
 
 impl Codec {
     /// Most bytes of a picture of this kind.
     pub(crate) fn most(self) -> usize {
         match self {
-            Self::H264 | Self::Jpeg => MOST_PICTURE,
+            Self::H264 | Self::Jpeg | Self::CloseUp => MOST_PICTURE,
             Self::Card => MOST_CARD,
         }
     }
@@ -80,6 +84,17 @@ impl EncodedPicture {
         })
     }
 
+    /// A JPEG of `rgba`, rows from the top, which shows the glass from close by.
+    ///
+    /// # Errors
+    /// As for [`Self::jpeg`].
+    pub fn close_up(rgba: &[u8], size: [u16; 2], time_us: u64) -> Result<Self, JpegError> {
+        Ok(Self {
+            codec: Codec::CloseUp,
+            ..Self::jpeg(rgba, size, time_us)?
+        })
+    }
+
     /// A small JPEG of `rgba`, rows from the top, for a card of the class: its longest side has 160 pixels at most.
     ///
     /// # Errors
@@ -103,6 +118,7 @@ impl EncodedPicture {
             Codec::H264 => 1,
             Codec::Jpeg => 2,
             Codec::Card => CARD_MARK,
+            Codec::CloseUp => CLOSE_UP_MARK,
         });
         message.extend([u8::from(self.is_key), 0, 0]);
         message.extend(self.size[0].to_le_bytes());
@@ -131,6 +147,7 @@ impl EncodedPicture {
             1 => Codec::H264,
             2 => Codec::Jpeg,
             CARD_MARK => Codec::Card,
+            CLOSE_UP_MARK => Codec::CloseUp,
             _ => return None,
         };
         if key > 1 || bytes.is_empty() || bytes.len() > codec.most() {

@@ -24,6 +24,7 @@ pub const ORDERS: usize = 32;
 
 const WANT_H264: u8 = 1;
 const WANT_JPEG: u8 = 2;
+const WANT_CLOSE_UP: u8 = 4;
 
 /// Which kinds of pictures some page shows: others need not be coded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,6 +33,8 @@ pub struct Wanted {
     pub h264: bool,
     /// Whether pictures in JPEG are wanted.
     pub jpeg: bool,
+    /// Whether pictures of the glass from close by are wanted.
+    pub close_up: bool,
 }
 
 /// Numbers of items that were left out, so that no frame waits.
@@ -78,7 +81,9 @@ impl Inbox {
 
     /// Sets which pictures are wanted.
     pub fn want(&self, wanted: Wanted) {
-        let bits = (u8::from(wanted.h264) * WANT_H264) | (u8::from(wanted.jpeg) * WANT_JPEG);
+        let bits = (u8::from(wanted.h264) * WANT_H264)
+            | (u8::from(wanted.jpeg) * WANT_JPEG)
+            | (u8::from(wanted.close_up) * WANT_CLOSE_UP);
         if self.wanted.swap(bits, Ordering::Relaxed) != bits {
             self.changed.notify_one();
         }
@@ -104,6 +109,7 @@ impl Inbox {
         Wanted {
             h264: bits & WANT_H264 != 0,
             jpeg: bits & WANT_JPEG != 0,
+            close_up: bits & WANT_CLOSE_UP != 0,
         }
     }
 
@@ -175,7 +181,7 @@ impl Port {
     pub fn picture(&self, picture: Arc<EncodedPicture>) {
         let number = match picture.codec {
             Codec::H264 => self.shared.sequence.fetch_add(1, Ordering::Relaxed),
-            Codec::Jpeg | Codec::Card => 0,
+            Codec::Jpeg | Codec::Card | Codec::CloseUp => 0,
         };
         let out = &self.shared.pictures_out;
         if picture.bytes.len() > picture.codec.most() {

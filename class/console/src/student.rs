@@ -25,6 +25,9 @@ pub struct Student {
     pub k_v: Option<Range>,
     /// Whether it replays a recording, of which nothing can be changed.
     pub replays: bool,
+    /// Whether it makes pictures of the glass from close by. Programs before version 5 of the messages do not say so, and make none.
+    #[serde(default)]
+    pub close_up: bool,
 }
 
 /// A scene that can be started.

@@ -125,6 +125,18 @@ impl Watcher {
         }
     }
 
+    /// Waits for the next picture, as a page gets it: its kind is in the first byte.
+    ///
+    /// # Errors
+    /// [`NotServed`], after half a minute of silence too.
+    pub fn see(&mut self) -> Result<Vec<u8>, NotServed> {
+        loop {
+            if let Message::Binary(bytes) = self.socket.read().map_err(not_served)? {
+                return Ok(bytes.to_vec());
+            }
+        }
+    }
+
     /// Shows the class from now on, in place of its student: pictures are those of the cards.
     ///
     /// # Errors

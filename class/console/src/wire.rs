@@ -10,8 +10,9 @@ use crate::port::ORDERS;
 use crate::student::{Choice, NAME, Points, SENTENCE, State, Step, Student};
 
 /// Version of the messages between student's program and hub.
-pub const PROTOCOL: u32 = 4;
-/// The oldest version that a hub reads. Its states have no points, and its programs make no pictures for cards.
+pub const PROTOCOL: u32 = 5;
+/// The oldest version that a hub reads. Its states have no points, and its programs make no pictures for cards. Programs of version 4 make
+/// no pictures from close to the glass.
 pub const OLDEST_PROTOCOL: u32 = 3;
 /// Most bytes of a message from a page. The longest valid one is a message of [`MESSAGE`](crate::MESSAGE) characters, each escaped as 12
 /// bytes.
@@ -215,6 +216,9 @@ pub(crate) enum ToStudent {
         /// Whether one picture for a card of the class is wanted. Left out where it is not: programs of [`OLDEST_PROTOCOL`] refuse it.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         card: bool,
+        /// Whether pictures of the glass from close by are wanted. Left out where they are not: programs of version 4 refuse it.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        close_up: bool,
     },
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::time::Duration;
 
 use vitriol_console::{Codec, EncodedPicture, Port};
 use vitriol_run::{Blame, Failure, H264};
@@ -14,6 +15,19 @@ pub const VIEW_SIDE: u32 = 720;
 /// Pictures a second at most. Our choice: a pour takes half a second.
 pub const VIEW_FPS: u32 = 30;
 
+/// Time between two pictures of the glass from close by. Our choice: liquid is seen to rise and boil, and a frame in 14 pays for one where
+/// a headset shows 72 a second.
+pub const CLOSE_UP_EVERY: Duration = Duration::from_millis(200);
+
+/// From where a picture is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Viewpoint {
+    /// The student's eyes.
+    Student,
+    /// Close to the glass.
+    CloseUp,
+}
+
 /// A picture to be coded.
 pub enum RawPicture {
     /// 0x00RRGGBB, rows from the top, in memory that the device has written and the host reads, and its width and height.
@@ -22,11 +36,14 @@ pub enum RawPicture {
     Rgba(Vec<u8>, [u32; 2]),
 }
 
+/// A picture, from where it is seen, and its time since the view began, µs.
+type Given = (RawPicture, Viewpoint, u64);
+
 /// Codes pictures for the console on a thread of its own, which ends when this is dropped.
 pub struct Coder {
     port: Port,
     /// One waits at most: what is older than that is not live.
-    pictures: Option<SyncSender<(RawPicture, u64)>>,
+    pictures: Option<SyncSender<Given>>,
     thread: Option<std::thread::JoinHandle<()>>,
 }
 
@@ -49,16 +66,19 @@ impl Coder {
         })
     }
 
-    /// Whether a page shows the view, or a picture for a card was asked for.
-    pub fn is_wanted(&self) -> bool {
+    /// Whether a page shows what is seen from there; of the student's eyes, also whether a picture for a card was asked for.
+    pub fn is_wanted(&self, from: Viewpoint) -> bool {
         let wanted = self.port.wanted();
-        wanted.h264 || wanted.jpeg || self.port.wants_card()
+        match from {
+            Viewpoint::Student => wanted.h264 || wanted.jpeg || self.port.wants_card(),
+            Viewpoint::CloseUp => wanted.close_up,
+        }
     }
 
     /// Hands in the picture of that time (µs) since the view began; one that comes too soon after another is left out. Does not wait.
-    pub fn give(&self, picture: RawPicture, time_us: u64) {
+    pub fn give(&self, picture: RawPicture, from: Viewpoint, time_us: u64) {
         if let Some(pictures) = &self.pictures {
-            let _ = pictures.try_send((picture, time_us));
+            let _ = pictures.try_send((picture, from, time_us));
         }
     }
 }
@@ -73,11 +93,15 @@ impl Drop for Coder {
     }
 }
 
-fn code_all(port: &Port, queue: &Receiver<(RawPicture, u64)>) {
+fn code_all(port: &Port, queue: &Receiver<Given>) {
     let mut coding = Coding::default();
     let mut told = false;
-    for (picture, time_us) in queue {
-        if let Err(failure) = coding.code(port, &picture, time_us)
+    for (picture, from, time_us) in queue {
+        let coded = match from {
+            Viewpoint::Student => coding.code(port, &picture, time_us),
+            Viewpoint::CloseUp => coding.code_close_up(port, &picture, time_us),
+        };
+        if let Err(failure) = coded
             && !std::mem::replace(&mut told, true)
         {
             tracing::warn!("the console's view stands still: {failure}");
@@ -101,7 +125,7 @@ impl Coding {
         let Some(size) = self.unpack(picture)? else {
             return Ok(());
         };
-        let sides = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
+        let sides = sides(size);
         if wanted.h264 {
             let (coded_size, mut encoder) = match self.encoder.take() {
                 Some(kept) if kept.0 == size => kept,
@@ -127,6 +151,23 @@ impl Coding {
         }
         if card {
             let coded = EncodedPicture::card(&self.rgba, sides, time_us).other()?;
+            port.picture(Arc::new(coded));
+        }
+        Ok(())
+    }
+
+    /// Each of these pictures stands alone: there are too few for a stream.
+    fn code_close_up(
+        &mut self,
+        port: &Port,
+        picture: &RawPicture,
+        time_us: u64,
+    ) -> Result<(), Failure> {
+        if !port.wanted().close_up {
+            return Ok(());
+        }
+        if let Some(size) = self.unpack(picture)? {
+            let coded = EncodedPicture::close_up(&self.rgba, sides(size), time_us).other()?;
             port.picture(Arc::new(coded));
         }
         Ok(())
@@ -165,6 +206,11 @@ impl Coding {
     }
 }
 
+/// Width and height as they are sent.
+fn sides(size: [u32; 2]) -> [u16; 2] {
+    size.map(|side| u16::try_from(side).unwrap_or(u16::MAX))
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -186,7 +232,7 @@ mod tests {
         let told = student((Some("Ada"), &Texts::english().unwrap()), true);
         let port = hub.student(told).unwrap().unwrap();
         let coder = Coder::new(&port).unwrap();
-        assert!(!coder.is_wanted());
+        assert!(!coder.is_wanted(Viewpoint::Student));
         let mut page = Watcher::enter(&hub, Codec::H264).unwrap();
         page.show_class().unwrap();
         let begun = Instant::now();
@@ -194,10 +240,11 @@ mod tests {
             assert!(begun.elapsed() < PATIENCE, "no card is asked for");
             std::thread::sleep(Duration::from_millis(20));
         }
-        assert!(coder.is_wanted() && !port.wanted().h264);
+        assert!(coder.is_wanted(Viewpoint::Student) && !port.wanted().h264);
         let side = 400;
         let pixels = vec![200; 4 * 400 * 400];
-        coder.give(RawPicture::Rgba(pixels, [side, side]), 0);
+        let picture = RawPicture::Rgba(pixels, [side, side]);
+        coder.give(picture, Viewpoint::Student, 0);
         let bytes = loop {
             if let Heard::Picture(bytes) = page.hear().unwrap() {
                 break bytes;
@@ -205,6 +252,34 @@ mod tests {
         };
         // One colour takes a small part of the 16,000 bytes that a card may have.
         assert!((8..16_008).contains(&bytes), "{bytes} bytes");
+    }
+
+    /// A page that shows the glass gets what is seen from there and not the student's view, which nobody shows then.
+    #[test]
+    fn a_close_up_goes_to_who_asks_for_it() {
+        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
+        let hub = start(listen, false, Language::En).unwrap();
+        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
+        assert!(told.close_up);
+        let port = hub.student(told).unwrap().unwrap();
+        let coder = Coder::new(&port).unwrap();
+        assert!(!coder.is_wanted(Viewpoint::CloseUp));
+        let mut page = Watcher::enter(&hub, Codec::CloseUp).unwrap();
+        let begun = Instant::now();
+        while !coder.is_wanted(Viewpoint::CloseUp) {
+            assert!(begun.elapsed() < PATIENCE, "no close-up is asked for");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert_eq!([port.wanted().h264, port.wanted().jpeg], [false; 2]);
+        let picture = |side: u32| {
+            let bytes = 4 * side as usize * side as usize;
+            RawPicture::Rgba(vec![200; bytes], [side; 2])
+        };
+        coder.give(picture(64), Viewpoint::CloseUp, 0);
+        let seen = page.see().unwrap();
+        // The second camera's mark, and width and height, little-endian.
+        assert_eq!(seen[0], 4);
+        assert_eq!(seen[4..8], [64, 0, 64, 0]);
     }
 
     mod long {

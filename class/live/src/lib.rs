@@ -8,7 +8,7 @@ mod told;
 mod watchers;
 
 pub use args::ConsoleArgs;
-pub use coder::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
+pub use coder::{CLOSE_UP_EVERY, Coder, RawPicture, VIEW_FPS, VIEW_SIDE, Viewpoint};
 pub use replayed::Live;
 pub use serve::{Console, Serving, invitation, listen_address, start, student};
 pub use told::{Attempts, attempts, readings};

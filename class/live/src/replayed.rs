@@ -11,7 +11,7 @@ use vitriol_run::{
 };
 use vitriol_xr::PoseFrame;
 
-use super::coder::{Coder, RawPicture};
+use super::coder::{CLOSE_UP_EVERY, Coder, RawPicture, Viewpoint};
 use super::serve::Console;
 use super::told::{Attempts, attempts, readings};
 
@@ -37,6 +37,8 @@ pub struct Live {
     due: Option<Instant>,
     /// How long the last step took, s.
     took: f64,
+    /// When the glass was drawn from close by last.
+    close_up: Option<Instant>,
     /// The number of events that were evaluated, and the attempts in them.
     attempts: (usize, Attempts),
 }
@@ -64,6 +66,7 @@ impl Live {
             done: 0,
             due: None,
             took: 0.0,
+            close_up: None,
             attempts: (0, Attempts::default()),
         };
         live.name_flasks();
@@ -99,6 +102,7 @@ impl Live {
                 // What was missed meanwhile is not made up for.
                 self.due = None;
             }
+            self.show_close_up()?;
             let left = self
                 .due
                 .map(|due| due.saturating_duration_since(Instant::now()));
@@ -110,6 +114,30 @@ impl Live {
             self.tell();
             std::thread::sleep(left.unwrap_or(PATIENCE).min(PATIENCE));
         }
+    }
+
+    /// Draws the glass from close by, where a page shows it and the next picture is due. Before the first step no neighbours are known, of
+    /// which a liquid's surface is made.
+    fn show_close_up(&mut self) -> Result<(), Failure> {
+        if self.time.steps() == 0 || !self.coder.is_wanted(Viewpoint::CloseUp) {
+            return Ok(());
+        }
+        let passed = self.close_up.map(|last| last.elapsed());
+        if passed.is_some_and(|passed| passed < CLOSE_UP_EVERY) {
+            return Ok(());
+        }
+        self.close_up = Some(Instant::now());
+        let elapsed = passed.map_or(f64::INFINITY, |passed| passed.as_secs_f64());
+        if let Some(picture) = self.inner.close_up(elapsed)? {
+            let picture = RawPicture::Rgba(picture, FILM_SIZE);
+            self.coder.give(picture, Viewpoint::CloseUp, self.time_us());
+        }
+        Ok(())
+    }
+
+    /// Simulated time, µs.
+    fn time_us(&self) -> u64 {
+        (1e6 * self.time.seconds()).round() as u64
     }
 
     fn tell(&mut self) {
@@ -193,15 +221,19 @@ impl Experiment for Live {
     }
 
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
-        let wanted = film == 0 && self.coder.is_wanted();
-        let time_us = (1e6 * self.time.seconds()).round() as u64;
+        let wanted = film == 0 && self.coder.is_wanted(Viewpoint::Student);
+        let time_us = self.time_us();
         let picture = self.inner.picture(film)?;
         if wanted {
             let [width, height] = FILM_SIZE;
             let whole = RawPicture::Rgba(picture.to_vec(), [width, height]);
-            self.coder.give(whole, time_us);
+            self.coder.give(whole, Viewpoint::Student, time_us);
         }
         Ok(picture)
+    }
+
+    fn close_up(&mut self, elapsed: f64) -> Result<Option<Vec<u8>>, Failure> {
+        self.inner.close_up(elapsed)
     }
 
     fn worth(&self) -> Worth {
@@ -239,6 +271,7 @@ mod tests {
     use super::*;
     use crate::serve::{start, student};
     use std::net::{Ipv4Addr, SocketAddr};
+    use vitriol_console::{Codec, Hub, Watcher};
     use vitriol_lesson::Language;
     use vitriol_sim::scene::Scene;
     use vitriol_sim::solver::Held;
@@ -268,6 +301,11 @@ mod tests {
             Ok(&[])
         }
 
+        fn close_up(&mut self, _: f64) -> Result<Option<Vec<u8>>, Failure> {
+            let [width, height] = FILM_SIZE.map(|side| side as usize);
+            Ok(Some(vec![200; 4 * width * height]))
+        }
+
         fn heard(&mut self) -> Result<Heard, Failure> {
             Ok(Heard::default())
         }
@@ -294,9 +332,10 @@ mod tests {
         }
     }
 
-    /// Flasks are named from the start on, which may be held, and those of a scene that was switched to by their own names.
-    #[test]
-    fn flasks_have_the_names_of_the_scene_on_the_bench() {
+    const SCENES: [&str; 2] = ["acid-into-water", "acid-on-glove"];
+
+    /// A replay of [`Switching`], and the hub that it is shown by.
+    fn live() -> (Hub, Live) {
         let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
         let hub = start(listen, false, Language::En).unwrap();
         let told = student((Some("Ada"), &Texts::english().unwrap()), false);
@@ -305,13 +344,47 @@ mod tests {
             student: told,
             language: Language::En,
         };
-        let scenes = ["acid-into-water", "acid-on-glove"];
         let switching = Switching {
-            scenes: scenes.map(|name| Scene::builtin(name).unwrap()),
+            scenes: SCENES.map(|name| Scene::builtin(name).unwrap()),
             at: 0,
             held: [Held::default(); 2],
         };
-        let mut live = Live::new(Box::new(switching), &console, scenes[0]).unwrap();
+        let live = Live::new(Box::new(switching), &console, SCENES[0]).unwrap();
+        (hub, live)
+    }
+
+    fn frame() -> PoseFrame {
+        PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: Pose::IDENTITY,
+            hands: [Hand::default(), Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        }
+    }
+
+    /// A page that asks for the glass from close by gets it after the next step, though no film is taken.
+    #[test]
+    fn a_page_that_asks_gets_the_glass_from_close_by() {
+        let (hub, mut live) = live();
+        live.step(&frame()).unwrap();
+        let mut page = Watcher::enter(&hub, Codec::CloseUp).unwrap();
+        let begun = Instant::now();
+        while !live.coder.is_wanted(Viewpoint::CloseUp) {
+            // A machine that is busy takes long.
+            assert!(begun.elapsed() < Duration::from_secs(300));
+            std::thread::sleep(PATIENCE);
+        }
+        assert!(!live.console.port.wanted().h264);
+        live.step(&frame()).unwrap();
+        assert_eq!(page.see().unwrap()[0], 4);
+    }
+
+    /// Flasks are named from the start on, which may be held, and those of a scene that was switched to by their own names.
+    #[test]
+    fn flasks_have_the_names_of_the_scene_on_the_bench() {
+        let (_hub, mut live) = live();
         let names = |live: &Live| {
             let state = live.state(&live.inner.glimpse().unwrap());
             let flasks = state.readings.flasks.iter();
@@ -319,15 +392,7 @@ mod tests {
         };
         let first = ["Beaker with 98\u{a0}% acid", "Beaker with water"];
         assert_eq!(names(&live), first);
-        let frame = PoseFrame {
-            step: 0,
-            time_ns: 0,
-            stage_from_view: Pose::IDENTITY,
-            hands: [Hand::default(), Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
-        };
-        live.step(&frame).unwrap();
+        live.step(&frame()).unwrap();
         assert_eq!(names(&live), ["Tray", "Bottle with water"]);
     }
 }

@@ -180,6 +180,7 @@ pub fn student((name, texts): (Option<&str>, &Texts), is_session: bool) -> Stude
             counterpart: choice.counterpart.and_then(index),
         })),
         replays: !is_session,
+        close_up: true,
         k_v: is_session.then_some(Range {
             least: 0.0,
             most: MOST_INTENSITY,

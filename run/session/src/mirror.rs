@@ -11,7 +11,7 @@ use vitriol_gpu::{Gpu, Image};
 use vitriol_run::Failure;
 use vitriol_shaders::Library;
 
-pub use self::shrink::{LONGEST, Shrink, Shrunk};
+pub use self::shrink::{LONGEST, Shrink, Shrunk, fit};
 use self::window::Say;
 pub(crate) use self::window::{Display, Extent, Opening};
 pub use self::window::{Window, names_screen};

@@ -205,7 +205,7 @@ impl Picture {
         let slot = self.drawn % 2;
         let mut rec = gpu.recorder(QueueKind::Async).other()?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_shapes(&mut rec, frame, slot);
-        self.with_frame(world, None, record)?;
+        self.with_frame((world, slot), None, record)?;
         let solver = world.solver();
         for (from, copies) in [(solver.puffs(), &self.puffs), (solver.dew(), &self.dew)] {
             if let (Some(from), Some(copies)) = (from, copies) {
@@ -253,6 +253,45 @@ impl Picture {
         Ok(picture)
     }
 
+    /// Submits one more picture of what was drawn last, seen from elsewhere, behind it: [`Self::image`] has it until the next is drawn.
+    /// Lenses hide nothing of it.
+    ///
+    /// # Errors
+    /// An error of the device.
+    pub fn draw_again(&mut self, world: &World, sight: &Sight<'_>) -> Result<(), Failure> {
+        let mut rec = world.gpu().recorder(QueueKind::Main).other()?;
+        let whole = Some(&sight.eyes.views[..self.views]);
+        // The other one is of the next picture.
+        let slot = (self.drawn + 1) % 2;
+        self.record(&mut rec, (world, slot), sight, (&sight.eyes, whole))?;
+        let again = world.gpu().submit(rec).other()?;
+        // Its slot is in use until this one is done.
+        if let Some(last) = self.under_way.last_mut() {
+            *last = again;
+        }
+        Ok(())
+    }
+
+    /// Records one pair of pictures, which may be a part of those views.
+    fn record(
+        &self,
+        rec: &mut Recorder,
+        (world, slot): (&World, usize),
+        sight: &Sight<'_>,
+        (outlook, part_of): (&Outlook, Option<&[View]>),
+    ) -> Result<(), Failure> {
+        let record = |frame: &FrameDesc<'_>| {
+            let frame = FrameDesc {
+                extent: Some(outlook.extent),
+                views: &outlook.views[..self.views],
+                part_of,
+                ..*frame
+            };
+            self.renderer.record_picture(rec, &frame, slot)
+        };
+        self.with_frame((world, slot), Some(sight), record)
+    }
+
     /// Records one pair of pictures, which may be a part of those views, and its copy to a headset's images of colour and depth.
     fn pair(
         &self,
@@ -264,16 +303,7 @@ impl Picture {
     ) -> Result<(), Failure> {
         let (renderer, half) = (&self.renderer, &self.half_depth);
         let slot = self.drawn % 2;
-        let record = |frame: &FrameDesc<'_>| {
-            let frame = FrameDesc {
-                extent: Some(outlook.extent),
-                views: &outlook.views[..self.views],
-                part_of,
-                ..*frame
-            };
-            renderer.record_picture(rec, &frame, slot)
-        };
-        self.with_frame(world, Some(sight), record)?;
+        self.record(rec, (world, slot), sight, (outlook, part_of))?;
         rec.copy_corner(renderer.image(), colour).other()?;
         if let Some(depth) = depth {
             let whole = colour.desc().extent;
@@ -313,7 +343,7 @@ impl Picture {
 
     fn with_frame(
         &self,
-        world: &World,
+        (world, slot): (&World, usize),
         sight: Option<&Sight<'_>>,
         f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
     ) -> Result<(), Failure> {
@@ -335,9 +365,9 @@ impl Picture {
             resting: sight.map_or(&[], |sight| sight.resting),
             liquid: Some(liquid_of(world)),
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
-                puffs: &puffs[self.drawn % 2],
+                puffs: &puffs[slot],
                 count: PUFFS,
-                dew: self.dew.as_ref().map(|dew| &dew[self.drawn % 2]),
+                dew: self.dew.as_ref().map(|dew| &dew[slot]),
             }),
             panel: sight.and_then(|sight| sight.panel),
             sign: sight.and_then(|sight| sight.sign),

@@ -5,6 +5,7 @@ mod around;
 mod benches;
 mod checkpoints;
 mod choices;
+mod close_up;
 mod counts;
 mod ended;
 mod frame;

@@ -81,6 +81,7 @@ async fn send(mut sender: SplitSink<WebSocket, Message>, inbox: &Inbox, protocol
                 jpeg: wanted.jpeg,
                 key,
                 card,
+                close_up: wanted.close_up,
             });
         }
         let mut messages: Vec<_> = (messages.iter())
@@ -127,7 +128,7 @@ mod tests {
 
     /// A class need not change all its programs on one day.
     #[test]
-    fn a_program_of_the_version_before_comes_in() {
+    fn programs_of_versions_before_come_in() {
         let hello = |protocol: u32| {
             introduced(&format!(
                 r#"{{"say":"hello","protocol":{protocol},"instance":"a","student":{{"name":"Ada","version":"0.1.0",
@@ -135,9 +136,10 @@ mod tests {
             ))
         };
         let admitted = (0..9).filter(|protocol| hello(*protocol).is_some());
-        assert_eq!(admitted.collect::<Vec<_>>(), [3, 4]);
+        assert_eq!(admitted.collect::<Vec<_>>(), [3, 4, 5]);
         let (protocol, _, student) = hello(3).unwrap_or_default();
         assert_eq!((protocol, &*student.name), (3, "Ada"));
+        assert!(!student.close_up, "they have no second camera");
         assert_eq!(introduced(r#"{"say":"state","state":{}}"#), None);
     }
 }

@@ -312,6 +312,8 @@ impl Inner {
         entry.inbox.want(Wanted {
             h264: looked_at(Codec::H264),
             jpeg: looked_at(Codec::Jpeg),
+            // A program that does not offer them would refuse the message.
+            close_up: entry.is.close_up && looked_at(Codec::CloseUp),
         });
     }
 

@@ -124,3 +124,30 @@ fn a_picture_goes_once_for_each_request_to_who_shows_the_class() {
     assert_eq!(pictures, [Bytes::from(expected)]);
     assert!(taken(&opened).is_empty(), "it shows a student");
 }
+
+/// The camera close to the glass is asked for while a page shows it, and only of programs that have one.
+#[test]
+fn a_close_up_is_wanted_of_who_offers_it() {
+    let registry = Registry::default();
+    let (page, _mailbox) = page(&registry);
+    let codec = Some(Codec::CloseUp);
+    registry.said(page, FromPage::Pictures { codec });
+    for (name, close_up) in [("new", true), ("old", false)] {
+        let inbox = Arc::new(Inbox::default());
+        let is = Student {
+            close_up,
+            ..Student::default()
+        };
+        let seat = registry.join(Text::clipped(name), is, inbox.clone());
+        let student = seat.unwrap().student;
+        assert_eq!(inbox.wanted(), Wanted::default(), "{name}: it is not shown");
+        registry.said(page, FromPage::Open { student });
+        let wanted = Wanted {
+            close_up,
+            ..Wanted::default()
+        };
+        assert_eq!(inbox.wanted(), wanted, "{name}");
+        registry.said(page, FromPage::Close {});
+        assert_eq!(inbox.wanted(), Wanted::default(), "{name}: no more");
+    }
+}

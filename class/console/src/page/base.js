@@ -26,8 +26,19 @@ const page = {
   state: null,       // its last state
   codec: null,       // "h264" or "jpeg"
   over: null,        // number of the student whose session was ended from here
+  told: undefined,   // the pictures that the hub was last asked for; undefined before the first request of a connection
   hides: sessionStorage.getItem("hides") === "yes",
+  closeUp: false,    // the live view shows the glass from close by
+  bare: kept("bare") === "yes",   // the class has no pictures
 };
+
+// What this browser keeps for the next time. One that keeps nothing throws.
+function kept(key) {
+  try { return localStorage.getItem(key); } catch { return null; }
+}
+function keep(key, value) {
+  try { localStorage.setItem(key, value); } catch { /* Then it counts until the page is left. */ }
+}
 
 function say(message) {
   if (page.socket?.readyState !== WebSocket.OPEN) return false;
@@ -76,6 +87,7 @@ async function connect() {
   socket.onopen = () => {
     patience = 250;
     page.socket = socket;
+    page.told = undefined;
     write($("link"), tr("connected"));
     tellPictures();
     if (page.opened === null) show("class"); else say({ say: "open", student: page.opened });

@@ -46,11 +46,12 @@ const OLD = 15000;   // ms
 async function receiveCard(head) {
   const number = head.getUint32(4, true);
   const canvas = cards.get(number)?.querySelector("canvas");
-  if (!canvas || page.hides || page.opened !== null) return;
+  const isShown = () => !page.bare && page.opened === null;
+  if (!canvas || !isShown()) return;
   try {
     const image = await createImageBitmap(new Blob([new Uint8Array(head.buffer, 8)], { type: "image/jpeg" }));
     // A class in which the student has left may have come before the picture, or while it was decoded.
-    if (page.students.some((student) => student.student === number && student.here)) {
+    if (isShown() && page.students.some((student) => student.student === number && student.here)) {
       Object.assign(canvas, { width: image.width, height: image.height, hidden: false });
       canvas.getContext("2d").drawImage(image, 0, 0);
       canvas.dataset.drawn = performance.now();
@@ -63,6 +64,19 @@ setInterval(() => {
     if (performance.now() - canvas.dataset.drawn > OLD) canvas.hidden = true;
   }
 }, 1000);
+
+// A class on a screen that all see may be shown without pictures. Then none is asked for.
+function showCardPictures() {
+  $("card-pictures").setAttribute("aria-pressed", !page.bare);
+  if (!page.bare) return;
+  for (const canvas of $("students").querySelectorAll("canvas")) canvas.hidden = true;
+}
+$("card-pictures").onclick = () => {
+  page.bare = !page.bare;
+  keep("bare", page.bare ? "yes" : "no");
+  showCardPictures();
+  tellPictures();
+};
 
 // What is pressed stays where it is until it is let go.
 function showCards(pressed) {
@@ -100,12 +114,16 @@ function showName() {
 }
 
 function open(student) {
-  if (say({ say: "open", student })) page.opened = student;
+  if (!say({ say: "open", student })) return;
+  page.opened = student;
+  tellPictures();
 }
 
 $("to-class").onclick = () => {
-  say({ say: "close" });
   page.opened = page.is = page.state = page.over = null;
+  // First, so that no card's picture is asked for where the class has none.
+  tellPictures();
+  say({ say: "close" });
   forgetPicture();
   show("class");
   if (!page.socket) connect();
@@ -118,6 +136,8 @@ function showOpened(student, is) {
   page.state = page.over = null;
   $("summary").hidden = true;
   forgetPicture();
+  showCamera();
+  tellPictures();
   // A student that was lost for a moment keeps its curves.
   if (curvesOf !== student) {
     forgetCurves();

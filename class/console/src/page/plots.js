@@ -187,5 +187,6 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { di
 
 // The page begins.
 showHiding();
+showCardPictures();
 redraw();
 chooseCodec().then(begin);

@@ -1,4 +1,4 @@
-// The student's view: H.264 by WebCodecs, JPEG where there is none.
+// The student's view: H.264 by WebCodecs, JPEG where there is none. The glass from close by is JPEG.
 let decoder = null;
 let waitsForKey = true;
 let decoding = false;   // a JPEG
@@ -17,8 +17,15 @@ async function chooseCodec() {
   } catch { /* Then it is JPEG. */ }
 }
 
+function wantedPictures() {
+  if (page.opened === null) return page.bare ? null : page.codec;
+  if (page.hides) return null;
+  return page.closeUp && page.is?.close_up ? "close-up" : page.codec;
+}
+
 function tellPictures() {
-  say({ say: "pictures", codec: page.hides ? null : page.codec });
+  const codec = wantedPictures();
+  if (codec !== page.told && say({ say: "pictures", codec })) page.told = codec;
 }
 
 function forgetPicture() {
@@ -41,13 +48,15 @@ function draw(image, width, height) {
   drawnAt = performance.now();
   showAge();
   canvas.dataset.drawn = drawn;
-  write($("stream"), `${page.codec === "h264" ? "H.264" : "JPEG"}, ${width} × ${height}`);
+  write($("stream"), `${page.told === "h264" ? "H.264" : "JPEG"}, ${width} × ${height}`);
 }
 
 function receivePicture(buffer) {
   const head = new DataView(buffer);
   if (head.getUint8(0) === 3) return receiveCard(head);
-  if (page.hides || page.opened === null) return;
+  const isCloseUp = head.getUint8(0) === 4;
+  // One of the other camera may be under way.
+  if (page.hides || page.opened === null || isCloseUp !== (page.told === "close-up")) return;
   const picture = {
     isKey: head.getUint8(1) === 1,
     width: head.getUint16(4, true),
@@ -55,7 +64,7 @@ function receivePicture(buffer) {
     timestamp: Number(head.getBigUint64(8, true)),
     bytes: new Uint8Array(buffer, 16),
   };
-  if (head.getUint8(0) === 2) receiveJpeg(picture); else receiveH264(picture);
+  if (head.getUint8(0) === 1) receiveH264(picture); else receiveJpeg(picture);
 }
 
 async function receiveJpeg(picture) {
@@ -141,6 +150,20 @@ $("zoom").onclick = () => {
   $("zoom").setAttribute("aria-pressed", zoomed);
 };
 $("picture").onclick = () => { if (!dragged) $("zoom").click(); };
+
+function showCamera() {
+  const offers = page.is?.close_up ?? false;
+  $("close-up").hidden = !offers;
+  $("close-up").setAttribute("aria-pressed", page.closeUp);
+  $("picture").setAttribute("aria-label", tr(offers && page.closeUp ? "sees_close_up" : "sees"));
+}
+$("close-up").onclick = () => {
+  page.closeUp = !page.closeUp;
+  forgetPicture();
+  zoomTo(1);
+  showCamera();
+  tellPictures();
+};
 
 function showHiding() {
   $("hide").setAttribute("aria-pressed", page.hides);

@@ -1,11 +1,13 @@
 //! Cards of a class: the lesson's step, the points so far, and a small picture of what each student sees.
 
+use std::time::Duration;
+
 use serde_json::json;
-use vitriol_console::{Points, Step, Text};
+use vitriol_console::{Command, Points, Step, Text};
 use vitriol_tests::devtools::Tab;
 use vitriol_tests::wait;
 
-use crate::look::{class_of, no_complaints, reads};
+use crate::look::{class_of, click, no_complaints, pressed, reads};
 use crate::student::{COLOUR, card, first_state};
 
 /// A student's card; students are numbered in the order in which they came.
@@ -106,5 +108,58 @@ fn a_card_has_a_small_picture_where_there_is_one() {
     drop(ada);
     tab.until(&format!("{}.hidden", picture(1)));
     assert_eq!(tab.eval(&format!("{}.hidden", picture(2))), false);
+    no_complaints(&mut tab);
+}
+
+/// Loads the page anew, and waits until it has the class.
+fn reload(tab: &mut Tab) {
+    tab.eval("window.isLeft = true");
+    tab.call("Page.reload", json!({}));
+    tab.until(&format!("!window.isLeft && {} !== null", button(1)));
+}
+
+/// Without pictures a class asks for none, a student's own view stays, and the browser keeps the choice where it keeps anything.
+#[test]
+fn a_class_is_shown_without_pictures_at_will() {
+    let Some((_folder, hub, [ada, _bo], mut tab)) = class_of("en", ["Ada", "Bo"]) else {
+        return;
+    };
+    let blind = hub.student(card("Cy")).unwrap().unwrap();
+    blind.publish(first_state());
+    tab.go(&hub.invite().unwrap().address);
+    sees(&mut tab, 1);
+    tab.until(&pressed("card-pictures", true));
+    click(&mut tab, "card-pictures");
+    tab.until(&pressed("card-pictures", false));
+    let none = "[...document.querySelectorAll('#students canvas')].every((it) => it.hidden)";
+    assert_eq!(tab.eval(none), true);
+    // The hub takes a page's messages in their order: what comes after the choice is done after it.
+    click(&mut tab, "all-pause");
+    assert_eq!(ada.ordered(), Command::Pause { on: true });
+    blind.take_card_request();
+    // Each card has its turn within 4 s.
+    std::thread::sleep(Duration::from_secs(5));
+    assert!(!blind.wants_card(), "a picture that nobody shows");
+    assert_eq!(tab.eval(none), true);
+
+    // A student's own view has its own switch.
+    tab.eval(&format!("{}.click()", button(1)));
+    tab.until(&reads("stream", "H.264, 320 × 180"));
+    click(&mut tab, "to-class");
+    reload(&mut tab);
+    tab.until(&pressed("card-pictures", false));
+    click(&mut tab, "card-pictures");
+    sees(&mut tab, 1);
+
+    // A browser that keeps nothing shows them, and hides them until the page is left.
+    let refuse =
+        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('refused') } })";
+    let refuse = json!({"source": refuse});
+    tab.call("Page.addScriptToEvaluateOnNewDocument", refuse);
+    reload(&mut tab);
+    sees(&mut tab, 1);
+    click(&mut tab, "card-pictures");
+    tab.until(&pressed("card-pictures", false));
+    assert_eq!(tab.eval(none), true);
     no_complaints(&mut tab);
 }

@@ -6,7 +6,7 @@ use vitriol_tests::wait::until;
 
 use crate::student::{FakeStudent, card};
 
-fn hub(folder: &std::path::Path, port: u16) -> Hub {
+pub fn hub(folder: &std::path::Path, port: u16) -> Hub {
     let config = Config {
         listen: ([127, 0, 0, 1], port).into(),
         always_tls: true,

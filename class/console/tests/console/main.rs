@@ -4,6 +4,8 @@
 #[cfg(target_os = "linux")]
 mod cards;
 mod client;
+#[cfg(target_os = "linux")]
+mod close_up;
 mod crowd;
 #[cfg(target_os = "linux")]
 mod distant;

@@ -19,6 +19,8 @@ use vitriol_tests::wait::PATIENCE;
 
 /// The colour of its view, sRGB.
 pub const COLOUR: [u8; 3] = [200, 60, 40];
+/// The colour of the glass from close by.
+pub const CLOSE_COLOUR: [u8; 3] = [40, 90, 200];
 /// The size of its view.
 pub const SIZE: [u16; 2] = [320, 180];
 
@@ -56,6 +58,7 @@ pub fn card(name: &str) -> Student {
             most: 4.0,
         }),
         replays: false,
+        close_up: true,
     }
 }
 
@@ -163,6 +166,12 @@ impl Camera {
         EncodedPicture::jpeg(&self.rgba, SIZE, self.taken).unwrap()
     }
 
+    pub fn close_up(&self) -> EncodedPicture {
+        let [red, green, blue] = CLOSE_COLOUR;
+        let rgba = [red, green, blue, 255].repeat(self.rgba.len() / 4);
+        EncodedPicture::close_up(&rgba, SIZE, self.taken).unwrap()
+    }
+
     pub fn card(&self) -> EncodedPicture {
         EncodedPicture::card(&self.rgba, SIZE, self.taken).unwrap()
     }
@@ -262,6 +271,9 @@ fn frames(port: &Port, done: &Sender<Command>, over: &AtomicBool, state: &Mutex<
         }
         if wanted.jpeg {
             port.picture(Arc::new(camera.jpeg()));
+        }
+        if wanted.close_up {
+            port.picture(Arc::new(camera.close_up()));
         }
         if port.take_card_request() {
             port.picture(Arc::new(camera.card()));

@@ -11,7 +11,7 @@ use vitriol_console::{
 };
 use vitriol_gpu::{Gpu, Image};
 use vitriol_lesson::{Event, Language, Rubric, Texts};
-use vitriol_run::{Action, Blame, Failure};
+use vitriol_run::{Action, Blame, CloseUp, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Census, Held};
@@ -67,6 +67,8 @@ pub(super) struct Now<'a> {
 pub(super) struct Instructor {
     console: Option<Console>,
     view: Option<View>,
+    /// From where the glass is seen closely.
+    pub close_up: CloseUp,
     texts: Texts,
     controls: Controls,
     /// The last order that was taken up.
@@ -102,6 +104,7 @@ impl Instructor {
         let view = view.map(|it| View::new(gpu, library, eye, &it.port));
         Ok(Self {
             view: view.transpose()?,
+            close_up: CloseUp::default(),
             console,
             texts: Texts::of(language).other()?,
             controls: Controls::default(),
@@ -199,6 +202,7 @@ impl Instructor {
     /// Takes in that another bench is in use, `before` events after the run's start.
     pub fn begin(&mut self, before: usize) {
         self.before = before;
+        self.close_up = CloseUp::default();
         self.flasks.clear();
         self.worked = false;
     }
@@ -296,6 +300,23 @@ impl Instructor {
     pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         match &mut self.view {
             Some(view) => view.take(picture, drawn, time),
+            None => Ok(()),
+        }
+    }
+
+    /// See [`View::close_up_is_due`].
+    pub fn close_up_is_due(&mut self, time: i64, missed: u64, lowered: bool) -> Option<f64> {
+        let view = self.view.as_mut()?;
+        view.close_up_is_due(time, missed, lowered)
+    }
+
+    /// Takes the first `drawn` pixels of a picture from close by, where there is a console.
+    ///
+    /// # Errors
+    /// An error of the device.
+    pub fn take_close_up(&mut self, picture: &Image, drawn: [u32; 2]) -> Result<(), Failure> {
+        match &mut self.view {
+            Some(view) => view.take_close_up(picture, drawn),
             None => Ok(()),
         }
     }

@@ -75,6 +75,44 @@ fn a_fixed_camera_stays() {
     assert!(moved < 5.0, "{moved}");
 }
 
+/// What watchers see from close by is the glass, twice as high as from the tripod: 67 % of the picture's height in place of 31 % (a beaker
+/// of 95 mm, in a view of 20.5° from 0.84 m). The film's own picture stays as it is.
+#[test]
+fn a_close_up_shows_the_glass_and_leaves_the_film_alone() {
+    let device = gpu::device();
+    let mut laboratory = experiment(&device, None, Library::embedded());
+    laboratory.step(&frame(0, Pose::IDENTITY)).unwrap();
+    // Observations are collected with it: they have where liquid is.
+    laboratory.heard().unwrap();
+    let film = laboratory.picture(0).unwrap().to_vec();
+    let close = laboratory.close_up(f64::INFINITY).unwrap().unwrap();
+    assert!(
+        laboratory.picture(0).unwrap() == film,
+        "the film has another picture"
+    );
+    // The beaker is at x = 0.
+    let (aside, _) = liquid(&close);
+    assert!(aside.abs() < 3.0, "{aside} pixels aside");
+    let coloured = |picture: &[u8]| {
+        let spread = |pixel: &[u8]| {
+            let channels = [pixel[0], pixel[1], pixel[2]];
+            channels.iter().max().unwrap() - channels.iter().min().unwrap()
+        };
+        let pixels = picture.chunks_exact(4);
+        pixels.filter(|pixel| spread(pixel) > 60).count()
+    };
+    let [far, near] = [coloured(&film), coloured(&close)];
+    // 4.6 times as many by the heights; the liquid is seen from another side, and its edges blur.
+    assert!(near > 3 * far, "{near} pixels and {far}");
+    // A camera at the head has the same picture from close by.
+    let head = Pose::new(BEFORE, Quat::from_rotation_y(0.3));
+    let mut worn = experiment(&device, Some(head), Library::embedded());
+    worn.step(&frame(0, head)).unwrap();
+    worn.heard().unwrap();
+    let same = worn.close_up(f64::INFINITY).unwrap().unwrap();
+    assert!(same == close, "the tripod goes with the head");
+}
+
 /// A room that is asked for stands in for the scene's, in the scene that a track changes to as well: an evening's, of 70 lx, is darker
 /// than a day's, of 800 lx, whatever the eye adapts to.
 #[test]
