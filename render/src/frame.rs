@@ -122,7 +122,32 @@ pub struct FrameDesc<'a> {
     pub length_scale: f32,
 }
 
-impl FrameDesc<'_> {
+impl<'a> FrameDesc<'a> {
+    /// A frame of an empty scene at real size.
+    pub fn empty(views: &'a [View]) -> Self {
+        Self {
+            extent: None,
+            views,
+            vessels: &[],
+            shards: &[],
+            particles: None,
+            hands: [&[]; 2],
+            tools: &[],
+            resting: &[],
+            liquid: None,
+            steam: None,
+            panel: None,
+            sign: None,
+            pane: None,
+            shown: 1.0,
+            goggles: 0.0,
+            part_of: None,
+            foveation: None,
+            colour_by: ColourBy::Speed(1.0),
+            length_scale: 1.0,
+        }
+    }
+
     /// Width and height of each view as drawn, in images of `held` pixels.
     pub(crate) fn extent(&self, held: [u32; 2]) -> [u32; 2] {
         self.extent.unwrap_or(held)

@@ -4,13 +4,16 @@
 //! writes them to descriptor 4, which a shell makes of its standard input and output.
 
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 use crate::browser::{Look, find_or_say};
+use crate::program::Killed;
 use crate::wait::PATIENCE;
 
 /// Time between two queries of a page.
@@ -18,7 +21,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// A tab. The browser goes when this is dropped.
 pub struct Tab {
-    child: Child,
+    _child: Killed,
     to: ChildStdin,
     from: Receiver<Value>,
     session: String,
@@ -68,7 +71,7 @@ impl Tab {
             }
         });
         let mut tab = Self {
-            child,
+            _child: Killed(child),
             to,
             from: receiver,
             session: String::new(),
@@ -234,7 +237,8 @@ impl Tab {
     pub fn picture(&mut self) -> Vec<u8> {
         let how = json!({"format": "png", "captureBeyondViewport": true});
         let taken = self.call("Page.captureScreenshot", how);
-        from_base64(taken["data"].as_str().expect("a picture"))
+        let data = taken["data"].as_str().expect("a picture");
+        STANDARD.decode(data).expect("base 64")
     }
 
     /// Complaints since the last call: uncaught exceptions, actions that a policy forbade, failed loads, messages on the console.
@@ -243,31 +247,4 @@ impl Tab {
         self.eval("0");
         std::mem::take(&mut self.complaints)
     }
-}
-
-impl Drop for Tab {
-    fn drop(&mut self) {
-        // It fails if the browser has ended by itself, which is fine.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// Decodes base 64 (RFC 4648, 4).
-fn from_base64(text: &str) -> Vec<u8> {
-    let digits = text.bytes().filter_map(|digit| match digit {
-        b'A'..=b'Z' => Some(digit - b'A'),
-        b'a'..=b'z' => Some(digit - b'a' + 26),
-        b'0'..=b'9' => Some(digit - b'0' + 52),
-        b'+' => Some(62),
-        b'/' => Some(63),
-        _ => None,
-    });
-    let digits: Vec<u32> = digits.map(u32::from).collect();
-    let mut bytes = Vec::with_capacity(digits.len() * 3 / 4);
-    for four in digits.chunks(4) {
-        let bits = four.iter().fold(0, |bits, digit| bits << 6 | digit) << (6 * (4 - four.len()));
-        bytes.extend(&(bits << 8).to_be_bytes()[..four.len() - 1]);
-    }
-    bytes
 }

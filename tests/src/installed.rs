@@ -15,8 +15,17 @@ pub(crate) fn find(name: &str, what: &str, test: &str) -> Option<PathBuf> {
     if root.join("complete").exists() {
         return Some(root);
     }
-    let cause = format!("{what} not installed (./lab setup does it)");
-    assert!(std::env::var("CI").as_deref() != Ok("true"), "{cause}");
-    eprintln!("NOT TESTED: {test}: {cause}");
+    not_tested(&format!(
+        "{test}: {what} not installed (./lab setup does it)"
+    ));
     None
+}
+
+/// Writes to standard error that something could not be tested.
+///
+/// # Panics
+/// With `CI=true`.
+pub(crate) fn not_tested(cause: &str) {
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "{cause}");
+    eprintln!("NOT TESTED: {cause}");
 }

@@ -1,7 +1,7 @@
 //! A program run from outside, in a folder.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
 
 /// The program at a path, which a test knows as `env!("CARGO_BIN_EXE_name")`.
 #[derive(Debug, Clone, Copy)]
@@ -14,9 +14,7 @@ impl Program {
     /// Where it cannot be started.
     #[must_use]
     pub fn run(self, folder: &Path, arguments: &[&str]) -> Output {
-        let mut command = Command::new(self.0);
-        command.args(arguments).current_dir(folder);
-        command.output().unwrap()
+        self.command(folder, arguments).output().unwrap()
     }
 
     /// Its standard output with `--json` as its last argument.
@@ -25,10 +23,33 @@ impl Program {
     /// Where it fails, or the output is no text.
     #[must_use]
     pub fn json(self, folder: &Path, arguments: &[&str]) -> String {
-        let output = self.run(folder, &[arguments, &["--json"]].concat());
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{arguments:?}: {errors}");
-        String::from_utf8(output.stdout).unwrap()
+        output(self.command(folder, &[arguments, &["--json"]].concat()))
+    }
+
+    fn command(self, folder: &Path, arguments: &[&str]) -> Command {
+        let mut command = Command::new(self.0);
+        command.args(arguments).current_dir(folder);
+        command
+    }
+}
+
+/// Standard output of a command that has to succeed.
+pub(crate) fn output(mut command: Command) -> String {
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A process that is killed when this is dropped.
+#[derive(Debug)]
+pub(crate) struct Killed(pub Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        // It fails if the process has ended by itself, which is fine.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 
+use crate::program::{Killed, output};
 use crate::{installed, wait};
 
 /// User name and password that may write to it, as in a token's file.
@@ -36,7 +37,7 @@ pub struct Ralph {
 /// A running server, which is killed when this is dropped.
 #[derive(Debug)]
 pub struct Server {
-    child: Child,
+    child: Killed,
     /// Its address.
     pub address: String,
 }
@@ -59,10 +60,8 @@ impl Ralph {
     #[must_use]
     pub fn python(&self, script: &Path, arguments: &[&str]) -> String {
         let mut command = Command::new(self.root.join("bin/python"));
-        let output = command.arg(script).args(arguments).output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{command:?}: {errors}");
-        String::from_utf8(output.stdout).unwrap()
+        command.arg(script).args(arguments);
+        output(command)
     }
 
     /// Starts a server that keeps its statements in this folder, and waits until it answers. The port is that of an earlier server, or any
@@ -88,11 +87,11 @@ impl Ralph {
             .spawn()
             .unwrap();
         let mut server = Server {
-            child,
+            child: Killed(child),
             address: format!("http://127.0.0.1:{port}/xAPI"),
         };
         wait::until("Ralph answers", || {
-            let ended = server.child.try_wait().unwrap();
+            let ended = server.child.0.try_wait().unwrap();
             assert!(ended.is_none(), "Ralph ended: {ended:?}");
             TcpStream::connect(("127.0.0.1", port)).ok()
         });
@@ -115,14 +114,6 @@ impl Server {
     #[must_use]
     pub fn file(folder: &Path) -> PathBuf {
         folder.join("fs_lrs.jsonl")
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        // It fails if the server has ended by itself, which is fine.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 

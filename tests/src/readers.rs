@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::installed;
+use crate::program::output;
 
 /// Paths of the readers.
 #[derive(Debug)]
@@ -51,11 +52,4 @@ impl Readers {
         command.arg(script).arg(&self.root).args(arguments);
         output(command)
     }
-}
-
-fn output(mut command: Command) -> String {
-    let output = command.output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
 }

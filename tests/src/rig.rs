@@ -10,6 +10,8 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::installed::not_tested;
+
 /// Environment variable with the rig's folder, for the test that runs in it.
 const FOLDER: &str = "VITRIOL_RIG";
 /// Monado's manifest, of the system or laid over it.
@@ -39,13 +41,7 @@ pub(crate) fn enter(
     }
     match root().and_then(|root| able().map(|()| root)) {
         Ok(root) => run_inside(name, root.as_deref(), prepare, log),
-        Err(cause) => {
-            assert!(
-                std::env::var("CI").as_deref() != Ok("true"),
-                "no OpenXR for this test: {cause}"
-            );
-            eprintln!("NOT TESTED: no OpenXR for {name}: {cause}");
-        }
+        Err(cause) => not_tested(&format!("no OpenXR for {name}: {cause}")),
     }
     None
 }

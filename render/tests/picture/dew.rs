@@ -1,6 +1,6 @@
 //! Dew on glass: what it hides, and what it leaves unchanged.
 
-use crate::rig::{Rig, linear, ray, without_particles};
+use crate::rig::{Rig, linear, ray};
 use crate::steam::even;
 use glam::{Affine3A, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -67,7 +67,7 @@ fn before(rig: &Rig, colour: u32, film: Option<&dyn Fn(f64) -> f64>) -> Vec<u8> 
             stage_from_panel: view.stage_from_eye * behind,
             size: [2.0; 2],
         }),
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
     picture.colour[0].clone()
 }

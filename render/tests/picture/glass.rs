@@ -1,7 +1,7 @@
 //! Traced glass against a cylinder in f64.
 
 use crate::panel::image;
-use crate::rig::{Rig, ray, without_particles};
+use crate::rig::{Rig, ray};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use vitriol_render::{Fov, FrameDesc, Label, Panel, SceneDesc, VesselDesc, View};
 
@@ -84,14 +84,14 @@ fn glass_is_where_its_cylinder_is() {
         let nothing = rig.draw(&FrameDesc {
             vessels: &away,
             panel,
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         });
         for turn in turns {
             let stage_from_vessel = Affine3A::from_rotation_translation(turn, foot);
             let picture = rig.draw(&FrameDesc {
                 vessels: &[stage_from_vessel],
                 panel,
-                ..without_particles(&[view])
+                ..FrameDesc::empty(&[view])
             });
             let vessel_from_stage = stage_from_vessel.inverse();
             let eye = vessel_from_stage.transform_point3a(view.stage_from_eye.translation);
@@ -164,7 +164,7 @@ fn with_rays(edit: impl Fn(String) -> String) -> Vec<u8> {
     ];
     let picture = rig.draw(&FrameDesc {
         vessels: &vessels,
-        ..without_particles(&views)
+        ..FrameDesc::empty(&views)
     });
     picture.colour[0].clone()
 }

@@ -1,6 +1,6 @@
 //! Acid on the goggles.
 
-use crate::rig::{Rig, without_particles};
+use crate::rig::Rig;
 use glam::Affine3A;
 use vitriol_render::{Fov, FrameDesc, View};
 
@@ -29,7 +29,7 @@ fn splashes_cover_what_is_aside() {
     let draw = |goggles: f32| {
         rig.draw(&FrameDesc {
             goggles,
-            ..without_particles(&views)
+            ..FrameDesc::empty(&views)
         })
     };
     let clean = draw(0.0);
@@ -89,13 +89,13 @@ fn a_part_has_the_splashes_of_the_whole() {
     });
     let whole = rig.draw(&FrameDesc {
         goggles: 1.0,
-        ..without_particles(&views)
+        ..FrameDesc::empty(&views)
     });
     let part = rig.draw(&FrameDesc {
         goggles: 1.0,
         extent: Some(size),
         part_of: Some(&views),
-        ..without_particles(&parts)
+        ..FrameDesc::empty(&parts)
     });
     let mut covered = 0;
     for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {

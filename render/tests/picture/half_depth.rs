@@ -5,7 +5,7 @@ use vitriol_gpu::QueueKind;
 use vitriol_render::{Fov, FrameDesc, HalfDepth, SceneDesc, View};
 use vitriol_shaders::Library;
 
-use crate::rig::{Rig, without_particles};
+use crate::rig::Rig;
 
 const EXTENT: [u32; 2] = [94, 71];
 
@@ -31,7 +31,7 @@ fn it_is_the_nearest_of_each_two_by_two() {
     ] {
         let frame = FrameDesc {
             extent: Some(drawn),
-            ..without_particles(&views)
+            ..FrameDesc::empty(&views)
         };
         let full = rig.draw(&frame).depth;
         let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();

@@ -1,7 +1,7 @@
 //! Gloves against a march through the same surface in f64, written another way.
 
-use crate::rig::{Picture, Reference, Rig, ray, without_particles};
-use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
+use crate::rig::{Picture, Reference, Rig, ray, right_of, turned_eye};
+use glam::{DVec3, EulerRot, Quat, Vec3};
 use vitriol_render::camera::NEAR;
 use vitriol_render::{
     Bone, Finish, Fov, FrameDesc, JOINED, MOST_BONES, ParticleSource, RenderError, View,
@@ -13,20 +13,6 @@ const EXTENT: [u32; 2] = [320, 240];
 /// and surface that is compared.
 const CLOSE: f64 = 0.01;
 const FLATTEST: f64 = 0.2;
-
-/// A headset's left eye, wide to the left and down, in a turned head.
-fn turned_eye() -> View {
-    let turn = Quat::from_euler(EulerRot::YXZ, 0.7, -0.4, 0.3);
-    View {
-        stage_from_eye: Affine3A::from_rotation_translation(turn, Vec3::new(0.3, 1.5, 0.2)),
-        fov: Fov {
-            left: -0.94,
-            right: 0.70,
-            up: 0.73,
-            down: -0.96,
-        },
-    }
-}
 
 /// A hand of a palm, three fingers and a cuff, where the eye sees it: `place` is in its own frame.
 fn hand(view: &View, place: Vec3, turn: f32) -> Vec<Bone> {
@@ -174,7 +160,7 @@ fn reference(view: &View, extent: [u32; 2], hands: [&[Bone]; 2]) -> Reference {
 fn draw(rig: &Rig, views: &[View], hands: [&[Bone]; 2]) -> Picture {
     rig.draw(&FrameDesc {
         hands,
-        ..without_particles(views)
+        ..FrameDesc::empty(views)
     })
 }
 
@@ -278,10 +264,7 @@ fn no_ray_goes_through_a_palm() {
 fn each_eye_sees_its_own_gloves() {
     let rig = Rig::new(EXTENT, 2);
     let left = turned_eye();
-    let mut right = left;
-    right.stage_from_eye =
-        left.stage_from_eye * Affine3A::from_translation(Vec3::new(0.064, 0.0, 0.0));
-    (right.fov.left, right.fov.right) = (-left.fov.right, -left.fov.left);
+    let right = right_of(&left);
     let bones = hand(&left, Vec3::new(0.0, 0.0, -0.5), 0.4);
     let picture = draw(&rig, &[left, right], [&[], &bones]);
     for (view, depth) in [left, right].iter().zip(&picture.depth) {
@@ -301,7 +284,7 @@ fn gloves_in_a_smaller_picture() {
     let picture = rig.draw(&FrameDesc {
         extent: Some(SMALL),
         hands: [&bones, &[]],
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
     let rows = picture.depth[0].chunks(EXTENT[0] as usize);
     let depth: Vec<f32> = rows
@@ -319,7 +302,7 @@ fn where_there_is_no_hand_there_is_nothing() {
     let near = hand(&view, Vec3::new(0.0, 0.0, -0.3), 0.0);
     draw(&rig, &[view], [&near, &near]);
     // Hands of the frame before are not seen.
-    let empty = rig.draw(&without_particles(&[view]));
+    let empty = rig.draw(&FrameDesc::empty(&[view]));
     assert!(empty.depth[0].iter().all(|depth| *depth == 0.0));
     let behind = hand(&view, Vec3::new(0.0, 0.0, 0.4), 0.0);
     let nowhere = [f32::NAN, f32::INFINITY, 1e30].map(|x| Bone {
@@ -433,7 +416,7 @@ fn gloves_and_spheres_hide_each_other() {
             count: 3,
             radius: 0.03,
         }),
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
     let alone = [
         draw(&rig, &[view], [&bones, &[]]),
@@ -457,9 +440,8 @@ fn more_bones_than_there_is_room_for_are_refused() {
     let bones = [bone; MOST_BONES + 1];
     let frame = FrameDesc {
         hands: [&[], &bones],
-        ..without_particles(&views)
+        ..FrameDesc::empty(&views)
     };
-    let mut rec = rig.gpu.recorder(vitriol_gpu::QueueKind::Main).unwrap();
-    let error = rig.renderer.record(&mut rec, &frame).unwrap_err();
+    let error = rig.refusal(&frame);
     assert!(matches!(error, RenderError::TooManyBones { .. }), "{error}");
 }

@@ -1,7 +1,7 @@
 //! The laboratory about the bench against geometry and light in f64: where sink, tray and a sign are seen, where a number stands, and how
 //! bright rooms are.
 
-use crate::rig::{Picture, Rig, linear, without_particles};
+use crate::rig::{Picture, Rig, linear};
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, Label, PlateDesc, RoomLight, SceneDesc, VesselDesc, View};
 
@@ -46,7 +46,7 @@ fn sink_and_tray_are_at_the_far_edge() {
     let sink = [TABLE[1][0] - 0.37, TABLE[0][1] + 0.055];
     let middle = Vec3::new(sink[0] + 0.15, TOP, sink[1] + 0.08);
     let view = look(middle + Vec3::new(0.0, 0.8, 0.05), middle, 0.35);
-    let picture = rig.draw(&without_particles(&[view]));
+    let picture = rig.draw(&FrameDesc::empty(&[view]));
     let y = seen(&view, middle)[1];
     // Across the middle of its far half, where no drain is. The basin is dark, its rim is not.
     let dark = |[_, green, _]: [f64; 3]| green < 0.16;
@@ -64,7 +64,7 @@ fn sink_and_tray_are_at_the_far_edge() {
     let tray = [TABLE[0][0] + 0.06, TABLE[0][1] + 0.07];
     let middle = Vec3::new(tray[0] + 0.17, TOP, tray[1] + 0.0675);
     let view = look(middle + Vec3::new(0.0, 0.8, 0.05), middle, 0.35);
-    let picture = rig.draw(&without_particles(&[view]));
+    let picture = rig.draw(&FrameDesc::empty(&[view]));
     let y = seen(&view, middle)[1];
     let found = columns(&picture, y, [0.0, 639.0], |[red, ..]| red > 0.75);
     // Its upper edge.
@@ -93,7 +93,7 @@ fn a_hot_plate_is_let_into_the_bench() {
             });
             rig.draw(&FrameDesc {
                 length_scale: scale,
-                ..without_particles(&[view])
+                ..FrameDesc::empty(&[view])
             })
         };
         let (picture, plain) = (draw(vec![plate]), draw(Vec::new()));
@@ -126,7 +126,7 @@ fn a_sign_is_on_the_wall() {
     let middle = Vec3::new(0.65, 1.62, -1.7);
     for eye in [Vec3::new(0.3, 1.6, 0.0), Vec3::new(0.5, 1.2, -0.6)] {
         let view = look(eye, middle, 0.2);
-        let picture = rig.draw(&without_particles(&[view]));
+        let picture = rig.draw(&FrameDesc::empty(&[view]));
         for (side, x) in [-0.11, 0.11].into_iter().enumerate() {
             // Each edge in its own row: the plane leans.
             let edge = seen(&view, middle + x * Vec3::X);
@@ -165,7 +165,7 @@ fn numbers_and_labels_are_printed_at_their_heights() {
         rig.set_scene(&SceneDesc::laboratory(vec![desc], TOP, 1.0));
         let frame = FrameDesc {
             vessels: &vessels,
-            ..without_particles(std::slice::from_ref(&view))
+            ..FrameDesc::empty(std::slice::from_ref(&view))
         };
         (view, rig.draw(&frame))
     };
@@ -236,7 +236,7 @@ fn rooms_are_as_bright_as_they_say() {
         let mut scene = SceneDesc::laboratory(Vec::new(), TOP, 1.0);
         scene.light = light;
         rig.set_scene(&scene);
-        let picture = rig.draw(&without_particles(&[view]));
+        let picture = rig.draw(&FrameDesc::empty(&[view]));
         let found = rgb(&picture, 320, 240)[1];
         let sun = levels[0] * 7.643 * window.y / square.sqrt() / (1.0 + square);
         let expected = displayed(levels[2] * 0.33 * (levels[1] * 0.55 + sun));
@@ -260,7 +260,7 @@ fn the_window_is_seen_and_mirrored() {
         });
         let window = Vec3::new(-1.6, 1.75, 0.35);
         let view = look(window + Vec3::new(2.2, 0.1, 0.2), window, 1.3);
-        let picture = rig.draw(&without_particles(&[view]));
+        let picture = rig.draw(&FrameDesc::empty(&[view]));
         let light = |up: f32, across: f32| {
             let at = seen(&view, window + Vec3::new(0.0, up, across));
             rgb(&picture, at[0] as usize, at[1] as usize)[1]

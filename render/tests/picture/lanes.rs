@@ -2,7 +2,7 @@
 //! itself takes others.
 
 use crate::liquid::{Liquid, SPACING, draw, ellipsoids, frame, lattice, rig_of_lanes};
-use crate::rig::{Picture, without_particles};
+use crate::rig::Picture;
 use glam::{Affine3A, EulerRot, Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_render::{
@@ -180,7 +180,7 @@ mod long {
                     radius: 0.5 * SPACING,
                 }),
                 colour_by: ColourBy::Speed(10.0),
-                ..without_particles(&[view()])
+                ..FrameDesc::empty(&[view()])
             })
         });
         let seen = first.depth[0].iter().filter(|depth| **depth > 0.0);

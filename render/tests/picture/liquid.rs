@@ -1,6 +1,6 @@
 //! Liquid in buffers of the test's own, with its neighbour list by brute force.
 
-use crate::rig::{Picture, Rig, without_particles};
+use crate::rig::{Picture, Rig};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::{
@@ -161,7 +161,7 @@ pub fn frame<'a>(views: &'a [View], vessels: &'a [Affine3A], liquid: &'a Liquid)
     FrameDesc {
         vessels,
         liquid: Some(liquid.source()),
-        ..without_particles(views)
+        ..FrameDesc::empty(views)
     }
 }
 

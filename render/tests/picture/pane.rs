@@ -1,7 +1,7 @@
 //! The transmittance of a pane of glass against Fresnel's equations, whatever it mirrors.
 
 use crate::panel::{EXTENT, image, on_panel, panel, pixels, rgba, view};
-use crate::rig::{Rig, linear, ray, without_particles};
+use crate::rig::{Rig, linear, ray};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use vitriol_render::{FrameDesc, Pane};
 
@@ -38,7 +38,7 @@ fn a_pane_lets_through_what_fresnel_says() {
                 rig.draw(&FrameDesc {
                     panel: behind.then_some(panel),
                     pane,
-                    ..without_particles(&[view])
+                    ..FrameDesc::empty(&[view])
                 })
             };
             let (seen, own) = (draw(true, Some(pane)), draw(false, Some(pane)));

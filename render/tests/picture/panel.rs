@@ -1,6 +1,6 @@
 //! The panel against rays in f64, objects before it, and the fading of the picture.
 
-use crate::rig::{Picture, Rig, ray, without_particles};
+use crate::rig::{Picture, Rig, linear, ray};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, QueueKind, vk};
 use vitriol_render::camera::NEAR;
@@ -103,7 +103,7 @@ fn each_pixel_has_what_its_ray_meets() {
         let picture = rig.draw(&FrameDesc {
             panel: Some(panel),
             length_scale: scale,
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         });
         let (mut within, mut beside) = (0, 0);
         for (x, y, index) in pixels() {
@@ -141,7 +141,7 @@ fn each_pixel_has_what_its_ray_meets() {
     away.stage_from_panel.matrix3 *= glam::Mat3A::from_rotation_y(std::f32::consts::PI);
     let picture = rig.draw(&FrameDesc {
         panel: Some(away),
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
     assert!(picture.depth[0].iter().all(|depth| *depth == 0.0));
 }
@@ -167,7 +167,7 @@ fn a_glove_is_seen_before_it() {
         rig.draw(&FrameDesc {
             panel,
             hands: [&[], hand],
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
     };
     let (both, alone) = (draw(Some(panel), &[finger]), draw(None, &[finger]));
@@ -218,7 +218,7 @@ fn glass_is_seen_before_it() {
         rig.draw(&FrameDesc {
             panel: Some(panel),
             vessels: &vessels,
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
     };
     let (before, behind) = (
@@ -258,9 +258,9 @@ fn what_is_in_the_bench_is_not_seen() {
     };
     let picture = rig.draw(&FrameDesc {
         panel: Some(panel),
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
-    let without = rig.draw(&without_particles(&[view]));
+    let without = rig.draw(&FrameDesc::empty(&[view]));
     let (mut above, mut below) = (0, 0);
     for (x, y, index) in pixels() {
         let Some((at, _)) = on_panel(&view, &panel, x, y) else {
@@ -292,17 +292,8 @@ fn the_picture_fades() {
         rig.draw(&FrameDesc {
             panel: Some(panel),
             shown,
-            goggles: 0.0,
-            part_of: None,
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
-    };
-    let light = |level: u8| {
-        let code = f64::from(level) / 255.0;
-        match code < 0.04045 {
-            true => code / 12.92,
-            false => ((code + 0.055) / 1.055).powf(2.4),
-        }
     };
     let whole = draw(1.0);
     let mut even = 0;
@@ -316,8 +307,8 @@ fn the_picture_fades() {
             even += 1;
             for (a, b) in rgba(&whole, index)[..3].iter().zip(rgba(&faded, index)) {
                 // Two levels of the darker one, for rounding and dither.
-                let most = light(b.saturating_add(2)) - light(b.saturating_sub(2));
-                let off = f64::from(shown) * light(*a) - light(b);
+                let most = linear(b.saturating_add(2)) - linear(b.saturating_sub(2));
+                let off = f64::from(shown) * linear(*a) - linear(b);
                 assert!(off.abs() <= most, "({x}, {y}), {shown}: {a} {b}");
             }
         }

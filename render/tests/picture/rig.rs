@@ -3,10 +3,12 @@
 
 use std::path::Path;
 
-use glam::{DVec3, Vec3};
+use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::camera::NEAR;
-use vitriol_render::{ColourBy, FrameDesc, ParticleSource, RenderDesc, Renderer, SceneDesc, View};
+use vitriol_render::{
+    Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, View,
+};
 use vitriol_shaders::Library;
 use vitriol_tests::gpu::{self, Watched};
 
@@ -98,6 +100,12 @@ impl Rig {
         }
     }
 
+    /// The error for a frame that is refused.
+    pub fn refusal(&self, frame: &FrameDesc<'_>) -> RenderError {
+        let mut rec = self.gpu.recorder(QueueKind::Main).unwrap();
+        self.renderer.record(&mut rec, frame).unwrap_err()
+    }
+
     /// Draws particles at rest of one radius.
     pub fn draw_spheres(&self, views: &[View], positions: &[[f32; 4]], radius: f32) -> Picture {
         let velocities = vec![[0.0; 4]; positions.len()];
@@ -110,7 +118,7 @@ impl Rig {
                 count: positions.len() as u32,
                 radius,
             }),
-            ..without_particles(views)
+            ..FrameDesc::empty(views)
         })
     }
 
@@ -165,29 +173,27 @@ pub fn linear(level: u8) -> f64 {
     }
 }
 
-/// A frame of an empty scene at real size.
-pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
-    FrameDesc {
-        extent: None,
-        views,
-        vessels: &[],
-        shards: &[],
-        particles: None,
-        hands: [&[]; 2],
-        tools: &[],
-        resting: &[],
-        liquid: None,
-        steam: None,
-        panel: None,
-        sign: None,
-        pane: None,
-        shown: 1.0,
-        goggles: 0.0,
-        part_of: None,
-        foveation: None,
-        colour_by: ColourBy::Speed(1.0),
-        length_scale: 1.0,
+/// A headset's left eye, wide to the left and down, in a turned head.
+pub fn turned_eye() -> View {
+    let turn = Quat::from_euler(EulerRot::YXZ, 0.7, -0.4, 0.3);
+    View {
+        stage_from_eye: Affine3A::from_rotation_translation(turn, Vec3::new(0.3, 1.5, 0.2)),
+        fov: Fov {
+            left: -0.94,
+            right: 0.70,
+            up: 0.73,
+            down: -0.96,
+        },
     }
+}
+
+/// The right eye of such a head, 64 mm beside the left one, with a mirrored frustum.
+pub fn right_of(left: &View) -> View {
+    let mut right = *left;
+    right.stage_from_eye =
+        left.stage_from_eye * Affine3A::from_translation(Vec3::new(0.064, 0.0, 0.0));
+    (right.fov.left, right.fov.right) = (-left.fov.right, -left.fov.left);
+    right
 }
 
 /// Unit vector from the eye through a pixel's centre, in the stage.

@@ -1,7 +1,7 @@
 //! Tiles that see one part of the room are drawn by a pipeline without the others: the picture is the same as by the pipeline of the whole
 //! room.
 
-use crate::rig::{Rig, without_particles};
+use crate::rig::Rig;
 use glam::{Affine3A, Vec3};
 use vitriol_render::{BoxDesc, Fov, FrameDesc, Pane, PlateDesc, SceneDesc, View};
 
@@ -55,7 +55,7 @@ fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
     let views = [view];
     let frame = FrameDesc {
         length_scale,
-        ..without_particles(&views)
+        ..FrameDesc::empty(&views)
     };
     let parts = rig.draw(&frame);
     let all = rig.draw(&FrameDesc {
@@ -138,7 +138,7 @@ fn each_part_is_drawn_by_its_pipeline() {
             _ => text,
         });
         rig.set_scene(&scene);
-        let picture = rig.draw(&without_particles(&[view]));
+        let picture = rig.draw(&FrameDesc::empty(&[view]));
         let pixels = picture.colour[0].chunks(4);
         pixels.filter(|pixel| pixel[..3] == [0, 0, 0]).count()
     };

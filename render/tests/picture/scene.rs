@@ -1,8 +1,7 @@
 //! Light, glass and scale of the whole picture.
 
-use crate::rig::{Rig, ray, without_particles};
+use crate::rig::{Rig, ray};
 use glam::{Affine3A, DVec3, Vec3};
-use vitriol_gpu::QueueKind;
 use vitriol_render::{
     Bone, ColourBy, Finish, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
 };
@@ -54,26 +53,28 @@ fn the_window_lights_the_side_that_faces_it() {
     );
 }
 
+/// The middle pixel of a sphere with that attribute.
+fn shade(rig: &Rig, attribute: [f32; 4], colour_by: ColourBy) -> Vec<u8> {
+    let positions = rig.buffer("positions", &[[0.0, 0.855, -0.40, 1.0]]);
+    let attributes = rig.buffer("attributes", &[attribute]);
+    let picture = rig.draw(&FrameDesc {
+        particles: Some(ParticleSource {
+            positions: &positions,
+            attributes: &attributes,
+            count: 1,
+            radius: 0.05,
+        }),
+        colour_by,
+        ..FrameDesc::empty(&[View::bench(ASPECT)])
+    });
+    let index = (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
+    picture.colour[0][4 * index..][..4].to_vec()
+}
+
 #[test]
 fn colour_follows_speed_and_stays_at_its_end() {
     let rig = Rig::new(EXTENT, 1);
-    let views = [View::bench(ASPECT)];
-    let positions = rig.buffer("positions", &[[0.0, 0.855, -0.40, 1.0]]);
-    let centre = |speed: f32| {
-        let velocities = rig.buffer("velocities", &[[0.0, 0.0, -speed, 0.0]]);
-        let picture = rig.draw(&FrameDesc {
-            particles: Some(ParticleSource {
-                positions: &positions,
-                attributes: &velocities,
-                count: 1,
-                radius: 0.05,
-            }),
-            colour_by: ColourBy::Speed(2.0),
-            ..without_particles(&views)
-        });
-        let index = (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
-        picture.colour[0][4 * index..][..4].to_vec()
-    };
+    let centre = |speed: f32| shade(&rig, [0.0, 0.0, -speed, 0.0], ColourBy::Speed(2.0));
     let rest = centre(0.0);
     assert!(
         rest[2] > rest[0] && rest[2] > rest[1],
@@ -93,22 +94,8 @@ fn colour_follows_speed_and_stays_at_its_end() {
 #[test]
 fn colour_follows_temperature_or_acid() {
     let rig = Rig::new(EXTENT, 1);
-    let views = [View::bench(ASPECT)];
-    let positions = rig.buffer("positions", &[[0.0, 0.855, -0.40, 1.0]]);
     let centre = |temperature: f32, acid: f32, colour_by: ColourBy| {
-        let heat = rig.buffer("heat", &[[temperature, acid, 7e8, -3e5]]);
-        let picture = rig.draw(&FrameDesc {
-            particles: Some(ParticleSource {
-                positions: &positions,
-                attributes: &heat,
-                count: 1,
-                radius: 0.05,
-            }),
-            colour_by,
-            ..without_particles(&views)
-        });
-        let index = (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
-        picture.colour[0][4 * index..][..4].to_vec()
+        shade(&rig, [temperature, acid, 7e8, -3e5], colour_by)
     };
     let heat = ColourBy::Temperature(20.0, 180.0);
     let warmer: Vec<f64> = [20.0, 60.0, 100.0, 140.0, 180.0]
@@ -137,7 +124,7 @@ fn glass_shows_but_hides_nothing() {
     let views = [View::bench(ASPECT)];
     let mut scene = SceneDesc::laboratory(Vec::new(), 0.75, 1.0);
     rig.set_scene(&scene);
-    let without = rig.draw(&without_particles(&views));
+    let without = rig.draw(&FrameDesc::empty(&views));
     assert!(
         without.depth[0].iter().all(|depth| *depth > 0.0),
         "the room has a hole"
@@ -147,7 +134,7 @@ fn glass_shows_but_hides_nothing() {
     let vessels = [Affine3A::from_translation(Vec3::new(0.12, 0.75, -0.40))];
     let with = rig.draw(&FrameDesc {
         vessels: &vessels,
-        ..without_particles(&views)
+        ..FrameDesc::empty(&views)
     });
     assert_eq!(with.depth, without.depth);
     // The beaker's projection: the pixels that it changes lie in it, or in its shadow on the bench to the right; left of it and above it
@@ -207,18 +194,7 @@ fn another_length_scale_gives_the_same_picture() {
             stain: 0.0,
         };
         rig.draw(&FrameDesc {
-            extent: None,
-            views: &views,
             vessels: &vessels,
-            shards: &[],
-            liquid: None,
-            steam: None,
-            panel: None,
-            sign: None,
-            pane: None,
-            shown: 1.0,
-            goggles: 0.0,
-            part_of: None,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,
@@ -227,11 +203,9 @@ fn another_length_scale_gives_the_same_picture() {
             }),
             // Hands are in real metres, as views are.
             hands: [&[finger], &[]],
-            tools: &[],
-            resting: &[],
-            foveation: None,
             colour_by: ColourBy::Speed(1.0 / scale),
             length_scale: scale,
+            ..FrameDesc::empty(&views)
         })
     };
     let (real, grown) = (draw(1.0), draw(0.05));
@@ -249,19 +223,17 @@ fn a_frame_that_does_not_fit_is_refused() {
     let mut rig = Rig::new([32, 32], 1);
     rig.set_scene(&SceneDesc::laboratory(vec![beaker()], 0.75, 1.0));
     let view = View::bench(1.0);
-    let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();
-    let mut refusal = |frame: FrameDesc<'_>| rig.renderer.record(&mut rec, &frame).unwrap_err();
     let one = [Affine3A::IDENTITY];
     let fitting = FrameDesc {
         vessels: &one,
-        ..without_particles(&[])
+        ..FrameDesc::empty(&[])
     };
-    let error = refusal(fitting);
+    let error = rig.refusal(&fitting);
     assert!(
         matches!(error, RenderError::Count { what: "views", .. }),
         "{error}"
     );
-    let error = refusal(without_particles(std::slice::from_ref(&view)));
+    let error = rig.refusal(&FrameDesc::empty(std::slice::from_ref(&view)));
     assert!(
         matches!(
             error,
@@ -273,7 +245,7 @@ fn a_frame_that_does_not_fit_is_refused() {
         "{error}"
     );
     let buffer = rig.buffer("few", &[[0.0; 4]; 4]);
-    let error = refusal(FrameDesc {
+    let error = rig.refusal(&FrameDesc {
         views: std::slice::from_ref(&view),
         particles: Some(ParticleSource {
             positions: &buffer,
@@ -297,7 +269,7 @@ fn both_eyes_see_the_room() {
     let left = View::bench(ASPECT);
     let mut right = left;
     right.stage_from_eye = left.stage_from_eye * Affine3A::from_translation(Vec3::X * 0.063);
-    let picture = rig.draw(&without_particles(&[left, right]));
+    let picture = rig.draw(&FrameDesc::empty(&[left, right]));
     for (eye, depth) in picture.depth.iter().enumerate() {
         let holes = depth.iter().filter(|depth| **depth == 0.0).count();
         assert_eq!(holes, 0, "eye {eye} sees {holes} pixels of nothing");

@@ -1,7 +1,7 @@
 //! Shards against the whole vessel.
 
 use crate::glass::beaker;
-use crate::rig::{Picture, Rig, ray, without_particles};
+use crate::rig::{Picture, Rig, ray};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use std::f64::consts::TAU;
 use vitriol_render::{Fov, FrameDesc, SceneDesc, ShardDesc, View};
@@ -39,7 +39,7 @@ fn drawn(rig: &mut Rig, view: View, vessel: Affine3A, shards: &[ShardDesc]) -> P
     rig.draw(&FrameDesc {
         vessels: &[vessel],
         shards,
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     })
 }
 

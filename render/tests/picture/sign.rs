@@ -1,7 +1,7 @@
 //! A sign against rays in f64: the disc of its image is seen, before the panel too, and no layer through it.
 
 use crate::panel::{EXTENT, image, on_panel, panel, pixels, rgba, view};
-use crate::rig::{Rig, without_particles};
+use crate::rig::Rig;
 use glam::{Affine3A, Vec3};
 use vitriol_render::camera::NEAR;
 use vitriol_render::{FrameDesc, Panel};
@@ -25,7 +25,7 @@ fn a_sign_is_the_disc_of_its_image() {
                 panel: Some(panel),
                 sign,
                 length_scale: scale,
-                ..without_particles(&[view])
+                ..FrameDesc::empty(&[view])
             })
         };
         let (picture, without) = (draw(Some(sign)), draw(None));
@@ -65,7 +65,7 @@ fn a_sign_is_the_disc_of_its_image() {
         rig.draw(&FrameDesc {
             panel: Some(panel),
             sign,
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
     };
     assert_eq!(draw(Some(hidden)).colour, draw(None).colour);

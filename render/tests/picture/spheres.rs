@@ -1,8 +1,8 @@
 //! Sphere impostors against ray casting in f64.
 
-use crate::rig::{Rig, without_particles};
-use glam::{Affine3A, EulerRot, Quat, Vec3};
-use vitriol_render::{Fov, View};
+use crate::rig::{Rig, right_of, turned_eye};
+use glam::Vec3;
+use vitriol_render::{FrameDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 
@@ -10,20 +10,6 @@ const EXTENT: [u32; 2] = [320, 240];
 /// 0.1 m from the eye is 6e-7, and a few roundings of the projection and of
 /// the interpolation come on top.
 const DEPTH_TOLERANCE: f64 = 1e-5;
-
-/// A headset's left eye, wide to the left and down, in a turned head.
-fn turned_eye() -> View {
-    let turn = Quat::from_euler(EulerRot::YXZ, 0.7, -0.4, 0.3);
-    View {
-        stage_from_eye: Affine3A::from_rotation_translation(turn, Vec3::new(0.3, 1.5, 0.2)),
-        fov: Fov {
-            left: -0.94,
-            right: 0.70,
-            up: 0.73,
-            down: -0.96,
-        },
-    }
-}
 
 /// A sphere's centre in the stage, given by the slopes and the distance at which the eye sees it.
 fn seen_at(view: &View, slope_x: f32, slope_y: f32, distance: f32) -> [f32; 4] {
@@ -107,7 +93,7 @@ fn eye_inside_the_liquid() {
 fn particles_that_were_taken_out_or_cannot_be_seen_leave_no_trace() {
     let rig = Rig::new(EXTENT, 1);
     let view = turned_eye();
-    let empty = rig.draw(&without_particles(&[view]));
+    let empty = rig.draw(&FrameDesc::empty(&[view]));
     assert!(empty.depth[0].iter().all(|depth| *depth == 0.0));
     assert!(
         empty.colour[0]
@@ -138,10 +124,7 @@ fn particles_that_were_taken_out_or_cannot_be_seen_leave_no_trace() {
 fn each_eye_sees_its_own_picture() {
     let rig = Rig::new(EXTENT, 2);
     let left = turned_eye();
-    let mut right = left;
-    right.stage_from_eye =
-        left.stage_from_eye * Affine3A::from_translation(Vec3::new(0.064, 0.0, 0.0));
-    (right.fov.left, right.fov.right) = (-left.fov.right, -left.fov.left);
+    let right = right_of(&left);
     let distance = 0.6;
     let spheres = [seen_at(&left, 0.05, 0.0, distance)];
     let picture = rig.draw_spheres(&[left, right], &spheres, 0.04);

@@ -1,6 +1,6 @@
 //! Steam and the visibility mask.
 
-use crate::rig::{LEFT_QUARTER, Picture, Rig, linear, ray, without_particles};
+use crate::rig::{LEFT_QUARTER, Picture, Rig, linear, ray};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, QueueKind, vk};
 use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, SteamSource, VesselDesc, View};
@@ -31,7 +31,7 @@ fn puffs_fade_against_what_is_there() {
     let views = [view];
     let bench = Vec3::new(0.0, 0.75, -0.4);
     let towards = (eye - bench).normalize();
-    let plain = rig.draw(&without_particles(&views));
+    let plain = rig.draw(&FrameDesc::empty(&views));
     let draw = |centre: Vec3, radius: f32, opacity: f32| {
         let puff = Puff {
             position: centre.to_array(),
@@ -48,7 +48,7 @@ fn puffs_fade_against_what_is_there() {
         });
         rig.draw(&FrameDesc {
             steam,
-            ..without_particles(&views)
+            ..FrameDesc::empty(&views)
         })
     };
     let change = |centre: Vec3, radius: f32, opacity: f32| {
@@ -97,7 +97,7 @@ fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f
                 stage_from_panel: view.stage_from_eye * behind,
                 size: [0.6; 2],
             }),
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
     });
     let red = |picture: &Picture| -> Vec<f64> {
@@ -242,7 +242,7 @@ fn steam_stays_in_its_vessel() {
                 count,
                 dew: None,
             }),
-            ..without_particles(&[view])
+            ..FrameDesc::empty(&[view])
         })
     };
     let (plain, steam) = (draw(0), draw(1));
@@ -271,9 +271,9 @@ fn steam_stays_in_its_vessel() {
 fn hidden_area_is_black_and_costs_no_light() {
     let mut rig = rig();
     let views = [View::bench(16.0 / 9.0)];
-    let plain = rig.draw(&without_particles(&views));
+    let plain = rig.draw(&FrameDesc::empty(&views));
     rig.renderer.set_visibility_mask(&[&LEFT_QUARTER]).unwrap();
-    let masked = rig.draw(&without_particles(&views));
+    let masked = rig.draw(&FrameDesc::empty(&views));
     for y in 0..EXTENT[1] {
         for x in 0..EXTENT[0] {
             let index = (y * EXTENT[0] + x) as usize;
@@ -291,5 +291,5 @@ fn hidden_area_is_black_and_costs_no_light() {
     }
     assert!(rig.renderer.set_visibility_mask(&[]).is_err());
     rig.renderer.set_visibility_mask(&[&[]]).unwrap();
-    assert_eq!(rig.draw(&without_particles(&views)).colour, plain.colour);
+    assert_eq!(rig.draw(&FrameDesc::empty(&views)).colour, plain.colour);
 }

@@ -1,10 +1,10 @@
 //! The filtered surface against known shapes.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, lattice, rig};
-use crate::rig::{Rig, ray, without_particles};
-use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
+use crate::rig::{Rig, ray};
+use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::QueueKind;
-use vitriol_render::{Fov, Surface, SurfaceFilter, View};
+use vitriol_render::{Fov, FrameDesc, Surface, SurfaceFilter, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Radius of the ball of particles, in spacings.
@@ -12,15 +12,14 @@ const BALL: f32 = 9.0;
 
 /// A headset's left eye, wide to the left and down, in a turned head.
 fn turned_eye() -> View {
-    let turn = Quat::from_euler(EulerRot::YXZ, 0.7, -0.4, 0.3);
     View {
-        stage_from_eye: Affine3A::from_rotation_translation(turn, Vec3::new(0.3, 1.5, 0.2)),
         fov: Fov {
             left: -0.35,
             right: 0.20,
             up: 0.22,
             down: -0.30,
         },
+        ..crate::rig::turned_eye()
     }
 }
 
@@ -179,7 +178,7 @@ fn two_queues_draw_what_one_does() {
 fn nothing_taken_out_behind_or_not_a_number_is_seen() {
     let view = turned_eye();
     let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    let empty = rig.draw(&without_particles(&[view]));
+    let empty = rig.draw(&FrameDesc::empty(&[view]));
     let none = Liquid::new(&rig, &[], |_| 0.0);
     let behind = ball(&rig, before(&view, -0.1));
     let nowhere = Liquid::new(

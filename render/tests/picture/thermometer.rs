@@ -1,6 +1,6 @@
 //! A thermometer's scale, read off a picture as a person reads it: by its marks and by its numbers.
 
-use crate::rig::{Rig, linear, without_particles};
+use crate::rig::{Rig, linear};
 use glam::{Quat, Vec3};
 use vitriol_render::{Bone, Finish, Fov, FrameDesc, Scale, View};
 
@@ -49,7 +49,7 @@ impl Seen {
         let views = [View::look_at(eye, target, fov)];
         let picture = rig.draw(&FrameDesc {
             tools: &[bone],
-            ..without_particles(&views)
+            ..FrameDesc::empty(&views)
         });
         if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
             let Finish::Scale(scale) = bone.finish else {

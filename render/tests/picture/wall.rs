@@ -3,7 +3,7 @@
 //! own outline.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
-use crate::rig::{linear, ray, without_particles};
+use crate::rig::{linear, ray};
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
 
@@ -47,7 +47,7 @@ fn a_full_cylinder_is_a_lens() {
     let vessels = [Affine3A::from_translation(FOOT)];
     let empty = rig.draw(&FrameDesc {
         vessels: &vessels,
-        ..without_particles(&[view])
+        ..FrameDesc::empty(&[view])
     });
     for (kind, acid) in [0.0, 1.0].into_iter().enumerate() {
         let mut liquid = Liquid::new(&rig, &places, |_| acid);

@@ -67,7 +67,7 @@ fn note(i: u32) -> u32 {
     let membership = tags[i].x;
     if (membership == REMOVED) { return NONE; }
     if (i >= awake_count()) {
-        // Where not all were sorted, it came into liquid that rests after this frame began.
+        // Where not all were sorted, it came into liquid that sleeps after this frame began.
         if (sorted_count() < COUNT) { keep_awake(membership - 1u); }
         return NONE;
     }
@@ -77,7 +77,7 @@ fn note(i: u32) -> u32 {
         return NONE;
     }
     let k = membership - 1u;
-    // Lists that are longer than a place are made anew with every other list. Of those that rest, one came in after this frame began.
+    // Lists that are longer than a place are made anew with every other list. Of those that sleep, one came in after this frame began.
     var lively = !(dot(v, v) <= SLOW * SLOW) || list_counts[i] > LIST_CAPACITY || sleeps(membership);
     if (HEAT) {
         let own = heat[i];

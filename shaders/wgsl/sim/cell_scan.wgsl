@@ -52,7 +52,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         workgroupBarrier();
     }
     let before = before_block + sums[local] - total;
-    // What comes before the second half does not rest.
+    // What comes before the second half is awake.
     if (SLEEP && first == 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { note_awake(before); }
     cell_starts[first] = before;
     cell_starts[first + 1u] = before + a;

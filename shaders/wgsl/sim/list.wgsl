@@ -320,7 +320,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     // stay together for ever.
     if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
     if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
-    // Of liquid that rests the list's own place is kept, and no longer one.
+    // Of liquid that sleeps the list's own place is kept, and no longer one.
     list_counts[i] = select(found, min(found, LIST_CAPACITY), own_half > 0u);
     if (DORMANT_TURNOVER) { kept[i] = select(1.0, 0.0, found > LIST_CAPACITY); }
     // Sums take four at a time; the particle itself adds nothing to differences.

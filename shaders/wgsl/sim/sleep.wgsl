@@ -1,5 +1,5 @@
-// At a frame's start: which flasks' liquid rests. It does once the flask has stood still, and its liquid has been slow, even and at the room's
-// temperature for `CALM_FRAMES`, and nothing has come near. All of that is known on the device when the frame begins, so nothing rests that a
+// At a frame's start: which flasks' liquid sleeps. It does once the flask has stood still, and its liquid has been slow, even and at the room's
+// temperature for `CALM_FRAMES`, and nothing has come near. All of that is known on the device when the frame begins, so nothing sleeps that a
 // pass would have moved.
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/turnover_plan.wgsl
@@ -7,13 +7,13 @@
 //!include common/liquid/list_asked.wgsl
 //!include common/liquid/step.wgsl
 
-/// Frames for which nothing may happen before liquid rests.
+/// Frames for which nothing may happen before liquid sleeps.
 override CALM_FRAMES: u32 = 18u;
 
 /// As `common/liquid/awake.wgsl` has it.
 @group(0) @binding(59) var<storage, read_write> sleep: array<u32>;
 
-/// How far a flask may drift while it counts as at rest, m; how far it may turn, as a length of quaternions; difference of acid fractions up to
+/// How far a flask may drift while it counts as unmoved, m; how far it may turn, as a length of quaternions; difference of acid fractions up to
 /// which liquid is even (`solver/sleep.rs`).
 override STILL: f32 = 1e-4;
 override UPRIGHT: f32 = 1e-3;

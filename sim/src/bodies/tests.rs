@@ -52,8 +52,9 @@ fn erlenmeyer(stage_from_flask: Pose) -> BodySpec {
     }
 }
 
-fn world(flasks: Vec<BodySpec>) -> Bodies {
-    Bodies::new(&BodiesSpec {
+/// Flasks on a large table.
+fn on_table(flasks: Vec<BodySpec>) -> BodiesSpec {
+    BodiesSpec {
         gravity: Vec3::new(0.0, -G, 0.0),
         step: STEP,
         length_scale: 1.0,
@@ -66,8 +67,11 @@ fn world(flasks: Vec<BodySpec>) -> Bodies {
         flasks,
         tools: Vec::new(),
         worn: super::Worn::default(),
-    })
-    .unwrap()
+    }
+}
+
+fn world(flasks: Vec<BodySpec>) -> Bodies {
+    Bodies::new(&on_table(flasks)).unwrap()
 }
 
 /// A world twenty times as large, in which a beaker begins so high (m, at real size) over the floor: masses go with the third power of
@@ -78,13 +82,9 @@ fn twenty_times(height: f32) -> Bodies {
     flask.glass_mass *= 8000.0;
     Bodies::new(&BodiesSpec {
         gravity: Vec3::new(0.0, -20.0 * G, 0.0),
-        step: STEP,
         length_scale: 20.0,
         table: None,
-        floor: 0.0,
-        flasks: vec![flask],
-        tools: Vec::new(),
-        worn: super::Worn::default(),
+        ..on_table(vec![flask])
     })
     .unwrap()
 }

@@ -69,30 +69,16 @@ pub struct Glass {
     pub vessel: Vessel,
     /// Density of the wall, kg/m³.
     pub density: f64,
-    shape: Shape,
     diameter: f64,
     neck: f64,
     height: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Shape {
-    Cylinder,
-    Conical,
-    Round,
-    Bottle,
-}
-
-const fn glass(
-    name: &'static str,
-    (vessel, shape): (Vessel, Shape),
-    [diameter, neck, height]: [f64; 3],
-) -> Glass {
+const fn glass(name: &'static str, vessel: Vessel, [diameter, neck, height]: [f64; 3]) -> Glass {
     Glass {
         name,
         vessel,
         density: BOROSILICATE,
-        shape,
         diameter,
         neck,
         height,
@@ -102,58 +88,30 @@ const fn glass(
 /// All named vessels.
 pub const GLASSWARE: [Glass; 9] = [
     // ISO 3819, low form, 250, 400 and 600 mL.
-    glass(
-        "beaker-250",
-        (Vessel::Beaker, Shape::Cylinder),
-        [0.070, 0.070, 0.095],
-    ),
-    glass(
-        "beaker-400",
-        (Vessel::Beaker, Shape::Cylinder),
-        [0.080, 0.080, 0.110],
-    ),
-    glass(
-        "beaker-600",
-        (Vessel::Beaker, Shape::Cylinder),
-        [0.090, 0.090, 0.125],
-    ),
+    glass("beaker-250", Vessel::Beaker, [0.070, 0.070, 0.095]),
+    glass("beaker-400", Vessel::Beaker, [0.080, 0.080, 0.110]),
+    glass("beaker-600", Vessel::Beaker, [0.090, 0.090, 0.125]),
     // ISO 4788, tall form, 100 mL, without its foot.
-    glass(
-        "cylinder-100",
-        (Vessel::Cylinder, Shape::Cylinder),
-        [0.030, 0.030, 0.256],
-    ),
+    glass("cylinder-100", Vessel::Cylinder, [0.030, 0.030, 0.256]),
     // ISO 1773, conical flask, narrow neck, 250 mL.
     glass(
         "erlenmeyer-250",
-        (Vessel::ConicalFlask, Shape::Conical),
+        Vessel::ConicalFlask,
         [0.085, 0.034, 0.145],
     ),
     // ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL.
     glass(
         "round-bottom-250",
-        (Vessel::RoundFlask, Shape::Round),
+        Vessel::RoundFlask,
         [0.085, 0.034, 0.140],
     ),
     // ISO 4796-1, laboratory bottles of 250 and 500 mL, with the neck within the thread of a GL 45 cap.
-    glass(
-        "bottle-250",
-        (Vessel::Bottle, Shape::Bottle),
-        [0.070, 0.040, 0.138],
-    ),
-    glass(
-        "bottle-500",
-        (Vessel::Bottle, Shape::Bottle),
-        [0.086, 0.040, 0.176],
-    ),
+    glass("bottle-250", Vessel::Bottle, [0.070, 0.040, 0.138]),
+    glass("bottle-500", Vessel::Bottle, [0.086, 0.040, 0.176]),
     // A common cooking pot, 16 cm by 10 cm inside: our choice.
     Glass {
         density: STAINLESS_STEEL,
-        ..glass(
-            "pot-2l",
-            (Vessel::Pot, Shape::Cylinder),
-            [0.164, 0.164, 0.102],
-        )
+        ..glass("pot-2l", Vessel::Pot, [0.164, 0.164, 0.102])
     },
 ];
 
@@ -168,11 +126,11 @@ impl Glass {
     pub fn points(&self) -> Vec<[f64; 2]> {
         let [body, neck] = [self.diameter, self.neck].map(|outer| 0.5 * outer - WALL);
         let height = self.height - WALL;
-        match self.shape {
-            Shape::Cylinder => vec![[0.0, body], [height, body]],
-            Shape::Conical => conical(body, neck, height),
-            Shape::Round => round(body, neck, height),
-            Shape::Bottle => bottle(body, neck, height),
+        match self.vessel {
+            Vessel::ConicalFlask => conical(body, neck, height),
+            Vessel::RoundFlask => round(body, neck, height),
+            Vessel::Bottle => bottle(body, neck, height),
+            _ => vec![[0.0, body], [height, body]],
         }
     }
 

@@ -18,7 +18,7 @@ use super::Reference;
 use super::surroundings::{Surroundings, Vessel};
 use crate::fill::fill;
 use crate::flask::Profile;
-use crate::parameters::{Parameters, Relaxation};
+use crate::parameters::Parameters;
 use crate::pose::Pose;
 use glam::DVec3;
 use vitriol_tests::random::Random;
@@ -30,29 +30,8 @@ const H: f64 = 2.0 * D;
 /// Real size at 90 Hz × 8 × 4.
 fn parameters() -> Parameters {
     Parameters {
-        spacing: D,
-        support_radius: H,
-        rest_density: 1000.0,
-        frame_time: 1.0 / 90.0,
         substeps: 8,
-        iterations: 4,
-        relaxation: Relaxation::Chebyshev {
-            spectral_bound: 6.0,
-            reduction: 5.0,
-        },
-        carry_rate: 0.0,
-        gravity: [0.0, -9.81, 0.0],
-        max_speed: 8.0,
-        viscosity: 0.02,
-        vorticity: 0.0,
-        surface: None,
-        chemistry: None,
-        heaters: Vec::new(),
-        dormant: true,
-        sleep: false,
-        list_margin: 0.05,
-        list_reach: 0.075,
-        margin: 0.001 * H,
+        ..Parameters::of_water(D)
     }
 }
 

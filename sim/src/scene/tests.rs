@@ -8,6 +8,13 @@ mod tools;
 
 use super::*;
 
+/// Fails if a part is not in the message.
+fn assert_parts(message: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(message.contains(part), "{part:?} is not in: {message}");
+    }
+}
+
 /// Two flasks of water, small, that the cases below break in one place each.
 const GOOD: &str = r#"
 name = "good"

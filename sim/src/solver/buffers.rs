@@ -175,9 +175,9 @@ buffers! {
         cell_starts: s.cells,
         block_counts: s.blocks,
         list_args: 12,
-        /// Particles of cells during a rebuild, where the list keeps those of liquid at rest.
+        /// Particles of cells during a rebuild, where the list keeps those of liquid that sleeps.
         cell_items: s.own_items,
-        /// Number of particles that do not rest, of those that rebuilds sort, and by flask whether its liquid rests.
+        /// Number of particles that are awake, of those that rebuilds sort, and by flask whether its liquid sleeps.
         sleep: s.sleep,
         /// Sizes of the dispatches over particles that do not sleep.
         awake_args: s.awake_args,

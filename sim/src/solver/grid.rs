@@ -19,7 +19,7 @@ pub struct Grid {
     pub cell: f64,
     /// Logarithms of the cells in x, y and z.
     pub bits: [u32; 3],
-    /// Tables of cells: a second one where liquid may rest.
+    /// Tables of cells: a second one where liquid may sleep.
     tables: u32,
     /// Neighbours for which each particle has a place in the list.
     pub list_capacity: u32,
@@ -54,7 +54,7 @@ impl Grid {
         (self.places(count) / u64::from(self.cells())).max(1) as u32
     }
 
-    /// Words for these particles where lists of liquid at rest must be kept meanwhile; else 0.
+    /// Words for these particles where lists of liquid that sleeps must be kept meanwhile; else 0.
     pub fn own_items(&self, count: u32) -> u64 {
         u64::from(self.cells()) * u64::from(self.cell_items(count)) * u64::from(self.tables - 1)
     }

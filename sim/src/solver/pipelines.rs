@@ -33,7 +33,7 @@ pub(super) struct Pipelines {
     pub(super) pane: Option<SolverPass>,
     /// Stops drops at the sash as `pane` stops particles; where there are tools, and bubbles throw up drops.
     pub(super) pane_spray: Option<SolverPass>,
-    /// Where liquid may rest: which does, at a frame's start, and what keeps it awake, at its end.
+    /// Where liquid may sleep: which does, at a frame's start, and what keeps it awake, at its end.
     pub(super) sleep: Option<[SolverPass; 2]>,
     pub(super) predict: SolverPass,
     /// Where there are bubbles.
@@ -100,7 +100,7 @@ impl Pipelines {
         let displaced = &displaced[..usize::from(carry > 0.0)];
         let spacing = spec.parameters.particle_volume().cbrt();
         let sleeps = sleep::is_on(&spec.parameters, spec.flasks.len());
-        // Lists of liquid at rest stay while the others are made anew.
+        // Lists of liquid that sleeps stay while the others are made anew.
         let items = [("cell_items", "cell_items")];
         let items = &items[..usize::from(sleeps)];
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);

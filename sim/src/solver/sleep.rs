@@ -1,4 +1,4 @@
-//! Liquid at rest, which passes over particles leave out. The device decides at each frame's start (`shaders/wgsl/sim/sleep.wgsl`).
+//! Liquid that sleeps: passes over particles leave it out. The device decides at each frame's start (`shaders/wgsl/sim/sleep.wgsl`).
 
 use super::spec::SolverSpec;
 use super::steam::ROOM_TEMPERATURE;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Pass, Recorder};
 use vitriol_shaders::layout::FlaskSleep;
 
-/// Words of `sleep` before those of flasks: the number of particles that do not rest is the first.
+/// Words of `sleep` before those of flasks: the number of particles that are awake is the first.
 pub(super) const HEAD: usize = 2;
 
 /// Words of a flask in `flask_sleeps`.
@@ -21,7 +21,7 @@ const FLASK_WORDS: usize = 12;
 /// Where in `awake_args` the size of a dispatch in workgroups of 64 is, bytes.
 const IN_64: u64 = 16;
 
-/// Time for which nothing may happen before liquid rests, s. Chosen: half a period of the slosh in a beaker of 80 mm is 0.15 s.
+/// Time for which nothing may happen before liquid sleeps, s. Chosen: half a period of the slosh in a beaker of 80 mm is 0.15 s.
 const CALM_TIME: f64 = 0.2;
 
 /// Height to which slow liquid would rise, in spacings. Chosen: 0.05 mm at `fast`, where a surface at rest has particles of
@@ -46,14 +46,14 @@ const WARM: f64 = 1.0;
 /// Difference of acid fractions up to which liquid is even. At 98 % so much water sets 1 J/g free, 0.7 K.
 const EVEN: f64 = 1e-3;
 
-/// The part of a state that tells which liquid rests; empty where none may.
+/// The part of a state that tells which liquid sleeps; empty where none may.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SleepState {
-    /// Number of particles that do not rest, number of those that the last frame sorted, and whether each flask's liquid rests.
+    /// Number of particles that are awake, number of those that the last frame sorted, and whether each flask's liquid sleeps.
     pub(super) sleep: Vec<u32>,
     /// The words of `FlaskSleep` of each flask.
     pub(super) flasks: Vec<[u32; FLASK_WORDS]>,
-    /// `wall_push` by slot, where there are loads: that of liquid at rest stays what it was.
+    /// `wall_push` by slot, where there are loads: that of liquid that sleeps stays what it was.
     pub(super) pushes: Vec<[f32; 4]>,
 }
 
@@ -73,15 +73,15 @@ impl SleepState {
     }
 }
 
-/// Whether liquid of a scene with so many flasks may rest. Not over a plate, which heats on.
+/// Whether liquid of a scene with so many flasks may sleep. Not over a plate, which heats on.
 pub(super) fn is_on(p: &Parameters, flasks: usize) -> bool {
     p.sleep && flasks > 0 && p.heaters.iter().all(|&watts| watts == 0.0)
 }
 
-/// Whether the words of `sleep` stay what they are while nothing moves: no particle is awake, none was sorted, and each flask's liquid rests,
+/// Whether the words of `sleep` stay what they are while nothing moves: no particle is awake, none was sorted, and each flask's liquid sleeps,
 /// that of empty ones too.
 pub(super) fn is_settled(words: &[u32]) -> bool {
-    matches!(words, [0, 0, flasks @ ..] if flasks.iter().all(|&rests| rests == 1))
+    matches!(words, [0, 0, flasks @ ..] if flasks.iter().all(|&sleeps| sleeps == 1))
 }
 
 /// Where a flask was when the device last counted it as moved.
@@ -162,7 +162,7 @@ impl Solver {
         vec![groups(group), 1, 1, 0, groups(64), 1, 1, 0]
     }
 
-    /// Number of particles whose liquid did not rest in the last frame; waits for the device.
+    /// Number of particles that were awake in the last frame; waits for the device.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device fails.

@@ -87,8 +87,8 @@ const ARRAYS: [Array; 30] = [
     array!(sprayed, spray.sprayed, "sprayed particles", No),
     array!(spray_left, spray.left, "flasks that spray left", No),
     array!(counters, counters, "counters", No),
-    array!(sleep, sleep.sleep, "liquid at rest", No),
-    array!(flask_sleeps, sleep.flasks, "flasks at rest", No),
+    array!(sleep, sleep.sleep, "liquid that sleeps", No),
+    array!(flask_sleeps, sleep.flasks, "flasks whose liquid sleeps", No),
     array!(wall_push, sleep.pushes, "pushes of walls", No),
 ];
 

@@ -209,13 +209,7 @@ impl SolverState {
         self.tags[slot][0] != REMOVED
     }
 
-    /// Flow of the gas that bubbles of a flask let go, m³/s: the mean of the last tenth of a second.
-    pub fn vented_flow(&self, flask: usize) -> f64 {
-        let flow = self.bubbles.venting.get(flask);
-        flow.map_or(0.0, |&[_, bits]| f32::from_bits(bits).into())
-    }
-
-    /// Sets [`Self::vented_flow`], where the scene has bubbles and that flask.
+    /// Sets the flow of the gas that bubbles of a flask let go, m³/s, where the scene has bubbles and that flask.
     pub fn set_vented_flow(&mut self, flask: usize, flow: f64) {
         if let Some([_, bits]) = self.bubbles.venting.get_mut(flask) {
             *bits = (flow as f32).to_bits();

@@ -152,22 +152,7 @@ fn viscosity_and_moving_glass() {
 #[test]
 fn density() {
     let device = gpu::device();
-    let setup = scene(parameters());
-    let solver = setup.solver(&device);
-    let after = Pose::new(glass_pose().position, Quat::from_rotation_z(0.12));
-    frame(&device, &solver, &[glass_pose()], &[after]);
-    let state = solver.snapshot().unwrap();
-    let own = densities(&device, &solver);
-    let found = particles(&state);
-    let mut truth = reference(&setup, &[glass_pose()]);
-    // Sets where the glass is at the frame's end.
-    truth.step(&[after], &[after]);
-    truth.positions = found.iter().map(|p| p.position).collect();
-    truth.membership = found.iter().map(|p| p.flask).collect();
-    let truth = truth.densities(&truth.positions, &truth.neighbours(&truth.positions));
-    let (error, slot) = worst(0..own.len(), |slot| {
-        (own[slot] - truth[state.tags[slot][1] as usize]).abs()
-    });
+    let (error, slot, truth) = density_error(&device, &scene(parameters()));
     assert!(error < PLANE, "{slot} is off by {error}");
     assert!(truth.iter().any(|&d| d > 0.99) && truth.iter().any(|&d| d < 0.6));
 }

@@ -16,16 +16,6 @@ const LIFTS: usize = 5;
 const LIFTED: usize = LIFTS + 63;
 const LETS_GO: usize = LIFTED + 45;
 
-fn scene() -> Scene {
-    let mut scene = Scene::builtin("beaker").unwrap();
-    scene.scale.spacing *= 2.0;
-    scene.solver.substeps = 5;
-    for liquid in &mut scene.liquids {
-        liquid.volume = 80e-6;
-    }
-    scene
-}
-
 fn world(gpu: &Gpu, scene: &Scene, breakable: bool) -> World {
     let mut world = World::new(gpu, &Library::watching(), scene, 1).unwrap();
     world.set_breakable(breakable);
@@ -51,7 +41,7 @@ mod long {
     #[test]
     fn what_was_in_it_lies_about() {
         let gpu = gpu::device();
-        let scene = scene();
+        let scene = coarse_beaker(80e-6);
         let mut breaks = world(&gpu, &scene, true);
         breaks.follow();
         let stood = breaks.poses()[0].position;

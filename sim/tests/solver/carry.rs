@@ -11,7 +11,6 @@ use vitriol_shaders::layout::Drops;
 use vitriol_sim::bodies::{Hand, Leap};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
@@ -163,14 +162,9 @@ fn all_that_is_in_the_flask_moves_and_nothing_else() {
 #[test]
 fn the_liquid_does_not_feel_a_leap() {
     let gpu = gpu::device();
-    let mut scene = Scene::builtin("beaker").unwrap();
-    scene.scale.spacing *= 2.0;
-    scene.solver.substeps = 5;
+    let mut scene = coarse_beaker(110e-6);
     // Surface tension is found on a grid, to which directions are not alike.
     scene.solver.surface_tension = None;
-    for liquid in &mut scene.liquids {
-        liquid.volume = 110e-6;
-    }
     let world = || World::new(&gpu, &Library::watching(), &scene, 1).unwrap();
     let (mut stays, mut leaps) = (world(), world());
     let stood = stays.poses()[0].position;

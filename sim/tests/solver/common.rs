@@ -5,12 +5,15 @@ use serde::Deserialize;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
 use vitriol_shaders::layout::LiquidLoad;
+use vitriol_sim::bodies::Hand;
 use vitriol_sim::fill::fill;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::flask::particles::BoundaryParticle;
-use vitriol_sim::parameters::{Parameters, Relaxation};
+use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Ground, Particle, Solver, SolverError, SolverSpec, SolverState};
+use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::list;
 pub use vitriol_tests::random::Random;
 
@@ -23,31 +26,7 @@ pub const SUBSTEP: f64 = 1.0 / 1080.0;
 
 /// Real size at 90 Hz × 12 × 4.
 pub fn parameters() -> Parameters {
-    Parameters {
-        spacing: D,
-        support_radius: H,
-        rest_density: 1000.0,
-        frame_time: 1.0 / 90.0,
-        substeps: 12,
-        iterations: 4,
-        relaxation: Relaxation::Chebyshev {
-            spectral_bound: 6.0,
-            reduction: 5.0,
-        },
-        carry_rate: 0.0,
-        gravity: [0.0, -9.81, 0.0],
-        max_speed: 8.0,
-        viscosity: 0.02,
-        vorticity: 0.0,
-        surface: None,
-        chemistry: None,
-        heaters: Vec::new(),
-        dormant: true,
-        sleep: false,
-        list_margin: 0.05,
-        list_reach: 0.075,
-        margin: 0.001 * H,
-    }
+    Parameters::of_water(D)
 }
 
 /// [`parameters`] with frames of one substep each, so that the state after every substep can be read.
@@ -57,6 +36,27 @@ pub fn single_substeps() -> Parameters {
         substeps: 1,
         ..parameters()
     }
+}
+
+/// A step of a world in which no hand is seen.
+pub const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
+
+/// So many steps without hands.
+pub fn steps(world: &mut World, count: u32) {
+    for _ in 0..count {
+        world.step(&AWAY).unwrap();
+    }
+}
+
+/// `beaker` with twice its spacing and half its substeps, at which the substep is as near to its limit, and so much water, m³.
+pub fn coarse_beaker(volume: f64) -> Scene {
+    let mut scene = Scene::builtin("beaker").unwrap();
+    scene.scale.spacing *= 2.0;
+    scene.solver.substeps = 5;
+    for liquid in &mut scene.liquids {
+        liquid.volume = volume;
+    }
+    scene
 }
 
 /// No table, and a floor out of reach.

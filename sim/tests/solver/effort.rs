@@ -1,6 +1,6 @@
 //! Substeps and iterations that change while it runs.
 
-use crate::common::densities;
+use crate::common::{AWAY, coarse_beaker, densities};
 use glam::{Quat, Vec3};
 use std::f64::consts::TAU;
 use vitriol_gpu::Gpu;
@@ -12,22 +12,9 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_tests::gpu;
 
-const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
-
-/// `beaker` with twice its spacing and half its substeps, at which the substep is as near to its
-/// limit, and half its water: 880 particles.
-fn scene() -> Scene {
-    let mut scene = Scene::builtin("beaker").unwrap();
-    scene.scale.spacing *= 2.0;
-    scene.solver.substeps = 5;
-    for liquid in &mut scene.liquids {
-        liquid.volume = 110e-6;
-    }
-    scene
-}
-
+/// Half of the beaker's water: 880 particles.
 fn world(gpu: &Gpu, effort: [u32; 2]) -> World {
-    let scene = scene().with_effort(effort).without_sleep();
+    let scene = coarse_beaker(110e-6).with_effort(effort).without_sleep();
     World::new(gpu, &Library::watching(), &scene, 1).unwrap()
 }
 

@@ -5,7 +5,6 @@ use crate::leaning_glass::{PLACE, both, glass_pose, scene, worst};
 use glam::{DVec3, Quat, Vec3};
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, QueueKind};
 use vitriol_shaders::{Library, sim};
-use vitriol_sim::bodies::Hand;
 use vitriol_sim::kernel::Kernel;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -14,7 +13,7 @@ use vitriol_sim::reference::neighbours::find;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::{Ground, Particle};
 use vitriol_sim::surface_tension::SurfaceTension;
-use vitriol_sim::world::{StepInput, World};
+use vitriol_sim::world::World;
 use vitriol_tests::{gpu, list};
 
 /// ω by the pass alone, of `positions` with `velocities`.
@@ -280,10 +279,7 @@ fn no_strength_is_no_force() {
         let solver = &mut scene.solver;
         (solver.vorticity, solver.surface_tension) = (strength, strength);
         let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
-        for _ in 0..2 {
-            let hands = [Hand::ABSENT; 2];
-            world.step(&StepInput::of_hands(hands)).unwrap();
-        }
+        steps(&mut world, 2);
         let hash = world.snapshot().unwrap().solver.hash();
         (hash, world.solver().bytes_per_particle())
     };

@@ -1,13 +1,11 @@
 //! k_v that changes while it boils.
 
+use crate::common::steps;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::{MOST_INTENSITY, StepInput, World, WorldError};
+use vitriol_sim::world::{MOST_INTENSITY, World, WorldError};
 use vitriol_tests::gpu;
-
-const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
 
 /// A pot of soup that starts above its boiling point, of twice the spacing and few substeps.
 fn world(gpu: &Gpu, intensity: f64) -> World {
@@ -16,12 +14,6 @@ fn world(gpu: &Gpu, intensity: f64) -> World {
     scene.solver.substeps = 4;
     scene.paper.as_mut().unwrap().k_v = Some(intensity);
     World::new(gpu, &Library::watching(), &scene, 1).unwrap()
-}
-
-fn steps(world: &mut World, count: u32) {
-    for _ in 0..count {
-        world.step(&AWAY).unwrap();
-    }
 }
 
 fn hash(world: &World) -> u64 {

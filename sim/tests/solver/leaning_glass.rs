@@ -116,3 +116,24 @@ pub fn both(gpu: &Gpu, setup: &Setup, after: Pose) -> (Vec<Found>, Reference) {
     no_limiter_acted(&solver);
     (particles(&solver.snapshot().unwrap()), truth)
 }
+
+/// After a frame: greatest error of the report's density at the places where the GPU has its particles, the slot that has it, and the
+/// reference's densities.
+pub fn density_error(gpu: &Gpu, setup: &Setup) -> (f64, usize, Vec<f64>) {
+    let solver = setup.solver(gpu);
+    let after = Pose::new(glass_pose().position, Quat::from_rotation_z(0.12));
+    frame(gpu, &solver, &[glass_pose()], &[after]);
+    let state = solver.snapshot().unwrap();
+    let own = densities(gpu, &solver);
+    let found = particles(&state);
+    let mut truth = reference(setup, &[glass_pose()]);
+    // Sets where the glass is at the frame's end.
+    truth.step(&[after], &[after]);
+    truth.positions = found.iter().map(|p| p.position).collect();
+    truth.membership = found.iter().map(|p| p.flask).collect();
+    let truth = truth.densities(&truth.positions, &truth.neighbours(&truth.positions));
+    let (error, slot) = worst(0..own.len(), |slot| {
+        (own[slot] - truth[state.tags[slot][1] as usize]).abs()
+    });
+    (error, slot, truth)
+}

@@ -1,29 +1,13 @@
 //! Recovery of a world after its device is lost.
 
+use crate::common::{coarse_beaker, steps};
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
-use vitriol_sim::bodies::Hand;
-use vitriol_sim::scene::Scene;
-use vitriol_sim::world::{Kept, StepInput, World};
+use vitriol_sim::world::{Kept, World};
 use vitriol_tests::gpu;
 
-const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
-
-/// `beaker` with twice its spacing and half its water.
 fn world(gpu: &Gpu) -> World {
-    let mut scene = Scene::builtin("beaker").unwrap();
-    scene.scale.spacing *= 2.0;
-    scene.solver.substeps = 5;
-    for liquid in &mut scene.liquids {
-        liquid.volume = 110e-6;
-    }
-    World::new(gpu, &Library::embedded(), &scene, 1).unwrap()
-}
-
-fn steps(world: &mut World, count: u32) {
-    for _ in 0..count {
-        world.step(&AWAY).unwrap();
-    }
+    World::new(gpu, &Library::embedded(), &coarse_beaker(110e-6), 1).unwrap()
 }
 
 /// The state as it is now, as a session keeps it.

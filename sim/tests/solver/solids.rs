@@ -1,17 +1,16 @@
 //! The paper's boundary: solid particles in place of volume maps.
 
 use crate::common::*;
-use crate::leaning_glass::{PLACE, PLANE, both, glass_pose, reference, scene, worst};
+use crate::leaning_glass::{PLACE, PLANE, both, density_error, glass_pose, scene, worst};
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_shaders::Library;
-use vitriol_sim::bodies::Hand;
 use vitriol_sim::flask::particles::{BoundaryParticle, sample};
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::measure::DensityError;
 use vitriol_sim::scene::{Boundary, Scene};
-use vitriol_sim::world::{StepInput, World};
+use vitriol_sim::world::World;
 use vitriol_tests::gpu;
 
 /// The narrow glass's solids, half a fluid particle's spacing apart.
@@ -31,31 +30,12 @@ fn scene_of_solids(parameters: Parameters) -> Setup {
 fn density_is_the_references() {
     let device = gpu::device();
     let setup = scene_of_solids(parameters());
-    let lanes = if device.info().features.subgroups {
-        8
-    } else {
-        1
-    };
-    for lanes in [1, lanes] {
+    for lanes in lanes(&device) {
         let setup = Setup {
             lanes: Some(lanes),
             ..setup.clone()
         };
-        let solver = setup.solver(&device);
-        let after = Pose::new(glass_pose().position, Quat::from_rotation_z(0.12));
-        frame(&device, &solver, &[glass_pose()], &[after]);
-        let state = solver.snapshot().unwrap();
-        let own = densities(&device, &solver);
-        let found = particles(&state);
-        let mut truth = reference(&setup, &[glass_pose()]);
-        // Sets where the glass is at the frame's end.
-        truth.step(&[after], &[after]);
-        truth.positions = found.iter().map(|p| p.position).collect();
-        truth.membership = found.iter().map(|p| p.flask).collect();
-        let truth = truth.densities(&truth.positions, &truth.neighbours(&truth.positions));
-        let (error, slot) = worst(0..own.len(), |slot| {
-            (own[slot] - truth[state.tags[slot][1] as usize]).abs()
-        });
+        let (error, slot, _) = density_error(&device, &setup);
         assert!(error < PLANE, "{lanes}: {slot} is off by {error}");
     }
 }
@@ -180,8 +160,7 @@ fn a_scene_may_ask_for_solids() {
         scene.liquids[0].volume = 5e-6;
         scene.solver.boundary = boundary;
         let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
-        let hands = [Hand::ABSENT; 2];
-        world.step(&StepInput::of_hands(hands)).unwrap();
+        steps(&mut world, 1);
         let state = world.snapshot().unwrap().solver;
         let found = particles(&state);
         assert!(found.iter().all(|p| p.flask == Some(0)));

@@ -267,70 +267,20 @@ mod tests {
     fn every_criterion_tells() {
         let recipe = Recipe::of(Base::Physical);
         assert!(reasons(&recipe, &calm()).is_empty());
-        let taken_out = Counters {
-            nan_particles: 1,
-            ..Counters::default()
-        };
-        let broken: [(&str, Run); 9] = [
-            (
-                "not finite",
-                Run {
-                    not_finite: 1,
-                    ..calm()
-                },
-            ),
-            (
-                "taken out",
-                Run {
-                    counters: taken_out,
-                    ..calm()
-                },
-            ),
-            ("beyond a wall", Run { lost: 1, ..calm() }),
-            (
-                "more than v_max",
-                Run {
-                    speed: 10.01,
-                    ..calm()
-                },
-            ),
-            (
-                "more than declared",
-                Run {
-                    excess: 1e-4,
-                    ..calm()
-                },
-            ),
-            (
-                "enthalpy changed",
-                Run {
-                    drifts: [0.0, 0.0, 2e-4],
-                    ..calm()
-                },
-            ),
-            (
-                "acid fractions",
-                Run {
-                    acids: [0.0, 1.1],
-                    ..calm()
-                },
-            ),
-            (
-                "colder than",
-                Run {
-                    temperatures: [-40.0, 90.0],
-                    ..calm()
-                },
-            ),
-            (
-                "is rest",
-                Run {
-                    end_speed: 0.2,
-                    ..calm()
-                },
-            ),
+        let broken: [(&str, fn(&mut Run)); 9] = [
+            ("not finite", |run| run.not_finite = 1),
+            ("taken out", |run| run.counters.nan_particles = 1),
+            ("beyond a wall", |run| run.lost = 1),
+            ("more than v_max", |run| run.speed = 10.01),
+            ("more than declared", |run| run.excess = 1e-4),
+            ("enthalpy changed", |run| run.drifts = [0.0, 0.0, 2e-4]),
+            ("acid fractions", |run| run.acids = [0.0, 1.1]),
+            ("colder than", |run| run.temperatures = [-40.0, 90.0]),
+            ("is rest", |run| run.end_speed = 0.2),
         ];
-        for (word, run) in broken {
+        for (word, breaks) in broken {
+            let mut run = calm();
+            breaks(&mut run);
             let found = reasons(&recipe, &run);
             assert!(
                 found.len() == 1 && found[0].contains(word),

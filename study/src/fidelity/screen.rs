@@ -96,29 +96,15 @@ impl Draw for Screen {
         };
         let vessels: Vec<Affine3A> = state.world.poses().iter().map(affine).collect();
         let frame = FrameDesc {
-            extent: None,
-            views: eyes,
             vessels: &vessels,
-            shards: &[],
-            particles: None,
-            hands: [&[]; 2],
-            tools: &[],
-            resting: &[],
             liquid: Some(LiquidSource {
                 // Surfaces are compared, without bubbles and drops.
                 bubbles: None,
                 ..liquid_of(&state.world)
             }),
-            steam: None,
-            panel: None,
-            sign: None,
-            pane: None,
-            shown: 1.0,
-            goggles: 0.0,
-            part_of: None,
-            foveation: None,
             colour_by: ColourBy::Acid,
             length_scale: state.world.scene().scale.length_scale as f32,
+            ..FrameDesc::empty(eyes)
         };
         let draw = || -> Result<Vec<Surface>, RenderError> {
             let gpu = state.world.gpu();

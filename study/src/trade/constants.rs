@@ -87,7 +87,7 @@ pub const CONSTANTS: [Constant; 6] = [
 
 /// The constants of scenes, then those of shaders.
 pub fn all() -> impl Iterator<Item = Constant> {
-    let of_shaders = GROUPS.into_iter().flat_map(|group| {
+    let of_shaders = GROUPS.iter().flat_map(|group| {
         group.rows.iter().map(move |&(key, unit, source)| Constant {
             key,
             file: group.file,

@@ -72,26 +72,14 @@ pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> 
 /// Parameters without walls, weight or viscosity.
 fn bare() -> Parameters {
     Parameters {
-        spacing: 0.0025,
-        support_radius: 0.005,
-        rest_density: 1000.0,
         frame_time: 1.0 / 100.0,
         substeps: 1,
         iterations: 2,
         relaxation: Relaxation::Jacobi { omega: 0.35 },
-        carry_rate: 0.0,
         gravity: [0.0; 3],
         max_speed: 100.0,
         viscosity: 0.0,
-        vorticity: 0.0,
-        surface: None,
-        chemistry: None,
-        heaters: Vec::new(),
-        dormant: true,
-        sleep: false,
-        list_margin: 0.05,
-        list_reach: 0.075,
-        margin: 5e-6,
+        ..Parameters::of_water(0.0025)
     }
 }
 

@@ -54,81 +54,61 @@ impl Event {
     }
 
     fn write(&self, to: &mut sys::EventDataBuffer) {
-        let next = std::ptr::null();
+        macro_rules! put {
+            ($event:ident { $($field:ident: $value:expr),* }) => {
+                write(to, sys::$event {
+                    ty: sys::$event::TYPE,
+                    next: std::ptr::null(),
+                    $($field: $value),*
+                })
+            };
+        }
+        let of = sys::Session::from_raw;
         match *self {
-            Self::Profile { session } => write(
-                to,
-                sys::EventDataInteractionProfileChanged {
-                    ty: sys::EventDataInteractionProfileChanged::TYPE,
-                    next,
-                    session: sys::Session::from_raw(session),
-                },
-            ),
+            Self::Profile { session } => {
+                put! { EventDataInteractionProfileChanged { session: of(session) } }
+            }
             Self::Moves {
                 session,
                 space,
                 time,
                 pose,
-            } => write(
-                to,
-                sys::EventDataReferenceSpaceChangePending {
-                    ty: sys::EventDataReferenceSpaceChangePending::TYPE,
-                    next,
-                    session: sys::Session::from_raw(session),
+            } => put! {
+                EventDataReferenceSpaceChangePending {
+                    session: of(session),
                     reference_space_type: raw_space(space).unwrap_or(sys::ReferenceSpaceType::VIEW),
                     change_time: sys::Time::from_nanos(time),
                     pose_valid: pose.is_some().into(),
-                    pose_in_previous_space: pose.unwrap_or(Pose::at(1e9, 1e9, 1e9)).raw(),
-                },
-            ),
+                    pose_in_previous_space: pose.unwrap_or(Pose::at(1e9, 1e9, 1e9)).raw()
+                }
+            },
             Self::Mask {
                 session,
                 views,
                 eye,
-            } => write(
-                to,
-                sys::EventDataVisibilityMaskChangedKHR {
-                    ty: sys::EventDataVisibilityMaskChangedKHR::TYPE,
-                    next,
-                    session: sys::Session::from_raw(session),
+            } => put! {
+                EventDataVisibilityMaskChangedKHR {
+                    session: of(session),
                     view_configuration_type: views,
-                    view_index: eye,
-                },
-            ),
-            Self::Presence { session, present } => write(
-                to,
-                sys::EventDataUserPresenceChangedEXT {
-                    ty: sys::EventDataUserPresenceChangedEXT::TYPE,
-                    next,
-                    session: sys::Session::from_raw(session),
-                    is_user_present: present.into(),
-                },
-            ),
-            Self::Rate { from, to: rate } => write(
-                to,
-                sys::EventDataDisplayRefreshRateChangedFB {
-                    ty: sys::EventDataDisplayRefreshRateChangedFB::TYPE,
-                    next,
+                    view_index: eye
+                }
+            },
+            Self::Presence { session, present } => put! {
+                EventDataUserPresenceChangedEXT {
+                    session: of(session),
+                    is_user_present: present.into()
+                }
+            },
+            Self::Rate { from, to: rate } => put! {
+                EventDataDisplayRefreshRateChangedFB {
                     from_display_refresh_rate: from,
-                    to_display_refresh_rate: rate,
-                },
-            ),
-            Self::Lost(count) => write(
-                to,
-                sys::EventDataEventsLost {
-                    ty: sys::EventDataEventsLost::TYPE,
-                    next,
-                    lost_event_count: count,
-                },
-            ),
-            Self::InstanceLossPending(time) => write(
-                to,
-                sys::EventDataInstanceLossPending {
-                    ty: sys::EventDataInstanceLossPending::TYPE,
-                    next,
-                    loss_time: sys::Time::from_nanos(time),
-                },
-            ),
+                    to_display_refresh_rate: rate
+                }
+            },
+            Self::Lost(count) => put! { EventDataEventsLost { lost_event_count: count } },
+            Self::InstanceLossPending(time) => put! {
+                EventDataInstanceLossPending { loss_time: sys::Time::from_nanos(time) }
+            },
         }
     }
 }

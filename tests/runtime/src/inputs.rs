@@ -10,9 +10,34 @@ use crate::profiles;
 use crate::script::HandState;
 use crate::state::{State, call};
 
-/// Time of the last sync, as the time at which a value changed; a better one is not known.
-fn changed(state: &State) -> sys::Time {
-    sys::Time::from_nanos(state.time)
+impl State {
+    /// Value of an action's control, and whether it was another one at the sync before; `None` where no control drives it.
+    fn values<T: PartialEq>(
+        &mut self,
+        session: sys::Session,
+        info: &sys::ActionStateGetInfo,
+        kind: sys::ActionType,
+        of: impl Fn(&HandState, &str) -> T,
+    ) -> Result<Option<(T, bool)>, R> {
+        let driven = self.driven(session, info.action, info.subaction_path, kind)?;
+        Ok(driven.map(|driven| {
+            let now = of(&driven.now, &driven.control);
+            let before = driven.earlier.map(|hand| of(&hand, &driven.control));
+            let has_changed = before.is_some_and(|before| before != now);
+            (now, has_changed)
+        }))
+    }
+}
+
+/// Writes what [`State::values`] found into an answer. The time of the last sync stands for that of the change: a better one is not known.
+macro_rules! set {
+    ($answer:ident, $values:ident, $state:ident) => {
+        let (now, has_changed) = $values.unwrap_or_default();
+        $answer.current_state = now;
+        $answer.changed_since_last_sync = has_changed.into();
+        $answer.last_change_time = sys::Time::from_nanos($state.time);
+        $answer.is_active = $values.is_some().into();
+    };
 }
 
 pub(crate) extern "system" fn get_action_state_boolean(
@@ -24,18 +49,10 @@ pub(crate) extern "system" fn get_action_state_boolean(
         let info = given!(info, sys::ActionStateGetInfo);
         let answer = given!(answer, sys::ActionStateBoolean);
         let kind = sys::ActionType::BOOLEAN_INPUT;
-        let driven = state.driven(session, info.action, info.subaction_path, kind)?;
-        let pressed = |hand: &HandState, control: &str| profiles::value(hand, control) > 0.5;
-        let values = driven.map(|driven| {
-            let now = pressed(&driven.now, &driven.control);
-            let before = driven.earlier.map(|hand| pressed(&hand, &driven.control));
-            (now, before.is_some_and(|before| before != now))
-        });
-        let (now, has_changed) = values.unwrap_or_default();
-        answer.current_state = now.into();
-        answer.changed_since_last_sync = has_changed.into();
-        answer.last_change_time = changed(state);
-        answer.is_active = values.is_some().into();
+        let values = state.values(session, info, kind, |hand, control| {
+            sys::Bool32::from(profiles::value(hand, control) > 0.5)
+        })?;
+        set!(answer, values, state);
         Ok(R::SUCCESS)
     })
 }
@@ -48,20 +65,8 @@ pub(crate) extern "system" fn get_action_state_float(
     call("xrGetActionStateFloat", |state| {
         let info = given!(info, sys::ActionStateGetInfo);
         let answer = given!(answer, sys::ActionStateFloat);
-        let kind = sys::ActionType::FLOAT_INPUT;
-        let driven = state.driven(session, info.action, info.subaction_path, kind)?;
-        let values = driven.map(|driven| {
-            let now = profiles::value(&driven.now, &driven.control);
-            let before = driven
-                .earlier
-                .map(|hand| profiles::value(&hand, &driven.control));
-            (now, before.is_some_and(|before| before != now))
-        });
-        let (now, has_changed) = values.unwrap_or_default();
-        answer.current_state = now;
-        answer.changed_since_last_sync = has_changed.into();
-        answer.last_change_time = changed(state);
-        answer.is_active = values.is_some().into();
+        let values = state.values(session, info, sys::ActionType::FLOAT_INPUT, profiles::value)?;
+        set!(answer, values, state);
         Ok(R::SUCCESS)
     })
 }
@@ -75,17 +80,11 @@ pub(crate) extern "system" fn get_action_state_vector2f(
         let info = given!(info, sys::ActionStateGetInfo);
         let answer = given!(answer, sys::ActionStateVector2f);
         let kind = sys::ActionType::VECTOR2F_INPUT;
-        let driven = state.driven(session, info.action, info.subaction_path, kind)?;
-        let values = driven.map(|driven| {
-            let before = driven.earlier.map(|hand| hand.stick);
-            let now = driven.now.stick;
-            (now, before.is_some_and(|before| before != now))
-        });
-        let ([x, y], has_changed) = values.unwrap_or_default();
-        answer.current_state = sys::Vector2f { x, y };
-        answer.changed_since_last_sync = has_changed.into();
-        answer.last_change_time = changed(state);
-        answer.is_active = values.is_some().into();
+        let values = state.values(session, info, kind, |hand, _| {
+            let [x, y] = hand.stick;
+            sys::Vector2f { x, y }
+        })?;
+        set!(answer, values, state);
         Ok(R::SUCCESS)
     })
 }

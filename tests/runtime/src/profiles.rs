@@ -2,127 +2,53 @@
 
 use crate::script::HandState;
 
-/// Paths of both hands, of the left and of the right alone.
-type Controls = [&'static [&'static str]; 3];
+/// Paths of both hands, of the left and of the right alone, parted by spaces.
+type Controls = [&'static str; 3];
 
 const TOUCH: Controls = [
-    &[
-        "input/squeeze",
-        "input/squeeze/value",
-        "input/trigger",
-        "input/trigger/value",
-        "input/trigger/touch",
-        "input/thumbstick",
-        "input/thumbstick/x",
-        "input/thumbstick/y",
-        "input/thumbstick/click",
-        "input/thumbstick/touch",
-        "input/thumbrest/touch",
-        "output/haptic",
-    ],
-    &[
-        "input/x",
-        "input/x/click",
-        "input/x/touch",
-        "input/y",
-        "input/y/click",
-        "input/y/touch",
-        "input/menu/click",
-    ],
-    &[
-        "input/a",
-        "input/a/click",
-        "input/a/touch",
-        "input/b",
-        "input/b/click",
-        "input/b/touch",
-        "input/system/click",
-    ],
+    "input/squeeze input/squeeze/value input/trigger input/trigger/value input/trigger/touch \
+        input/thumbstick input/thumbstick/x input/thumbstick/y input/thumbstick/click \
+        input/thumbstick/touch input/thumbrest/touch output/haptic",
+    "input/x input/x/click input/x/touch input/y input/y/click input/y/touch input/menu/click",
+    "input/a input/a/click input/a/touch input/b input/b/click input/b/touch \
+        input/system/click",
 ];
 
 /// Controls of a profile; `None` for one that is not supported with these extensions.
 fn controls(profile: &str, extensions: &[String]) -> Option<Controls> {
     let on = |name: &str| extensions.iter().any(|on| on == name);
-    let both: &[&str] = match profile.strip_prefix("/interaction_profiles/")? {
-        "khr/simple_controller" => &[
-            "input/select",
-            "input/select/click",
-            "input/menu",
-            "input/menu/click",
-            "output/haptic",
-        ],
+    let both = match profile.strip_prefix("/interaction_profiles/")? {
+        "khr/simple_controller" => {
+            "input/select input/select/click input/menu input/menu/click output/haptic"
+        }
         "oculus/touch_controller" => return Some(TOUCH),
         "bytedance/pico4_controller" if on("XR_BD_controller_interaction") => return Some(TOUCH),
-        "valve/index_controller" => &[
-            "input/system/click",
-            "input/a",
-            "input/a/click",
-            "input/b",
-            "input/b/click",
-            "input/squeeze",
-            "input/squeeze/value",
-            "input/squeeze/force",
-            "input/trigger",
-            "input/trigger/click",
-            "input/trigger/value",
-            "input/thumbstick",
-            "input/thumbstick/x",
-            "input/thumbstick/y",
-            "input/thumbstick/click",
-            "input/trackpad",
-            "input/trackpad/force",
-            "output/haptic",
-        ],
-        "htc/vive_controller" => &[
-            "input/system/click",
-            "input/squeeze",
-            "input/squeeze/click",
-            "input/menu",
-            "input/menu/click",
-            "input/trigger",
-            "input/trigger/click",
-            "input/trigger/value",
-            "input/trackpad",
-            "input/trackpad/x",
-            "input/trackpad/y",
-            "input/trackpad/click",
-            "input/trackpad/touch",
-            "output/haptic",
-        ],
-        "microsoft/motion_controller" => &[
-            "input/squeeze",
-            "input/squeeze/click",
-            "input/menu",
-            "input/menu/click",
-            "input/trigger",
-            "input/trigger/value",
-            "input/thumbstick",
-            "input/thumbstick/x",
-            "input/thumbstick/y",
-            "input/thumbstick/click",
-            "input/trackpad",
-            "input/trackpad/x",
-            "input/trackpad/y",
-            "input/trackpad/click",
-            "input/trackpad/touch",
-            "output/haptic",
-        ],
-        "ext/hand_interaction_ext" if on("XR_EXT_hand_interaction") => &[
-            "input/pinch_ext",
-            "input/pinch_ext/value",
-            "input/pinch_ext/ready_ext",
-            "input/pinch_ext/pose",
-            "input/poke_ext/pose",
-            "input/aim_activate_ext/value",
-            "input/aim_activate_ext/ready_ext",
-            "input/grasp_ext",
-            "input/grasp_ext/value",
-            "input/grasp_ext/ready_ext",
-        ],
-        "ext/eye_gaze_interaction" if on("XR_EXT_eye_gaze_interaction") => &[],
+        "valve/index_controller" => {
+            "input/system/click input/a input/a/click input/b input/b/click input/squeeze \
+        input/squeeze/value input/squeeze/force input/trigger input/trigger/click \
+        input/trigger/value input/thumbstick input/thumbstick/x input/thumbstick/y \
+        input/thumbstick/click input/trackpad input/trackpad/force output/haptic"
+        }
+        "htc/vive_controller" => {
+            "input/system/click input/squeeze input/squeeze/click input/menu input/menu/click \
+        input/trigger input/trigger/click input/trigger/value input/trackpad input/trackpad/x \
+        input/trackpad/y input/trackpad/click input/trackpad/touch output/haptic"
+        }
+        "microsoft/motion_controller" => {
+            "input/squeeze input/squeeze/click input/menu input/menu/click input/trigger \
+        input/trigger/value input/thumbstick input/thumbstick/x input/thumbstick/y \
+        input/thumbstick/click input/trackpad input/trackpad/x input/trackpad/y \
+        input/trackpad/click input/trackpad/touch output/haptic"
+        }
+        "ext/hand_interaction_ext" if on("XR_EXT_hand_interaction") => {
+            "input/pinch_ext input/pinch_ext/value input/pinch_ext/ready_ext input/pinch_ext/pose \
+        input/poke_ext/pose input/aim_activate_ext/value input/aim_activate_ext/ready_ext \
+        input/grasp_ext input/grasp_ext/value input/grasp_ext/ready_ext"
+        }
+        "ext/eye_gaze_interaction" if on("XR_EXT_eye_gaze_interaction") => "",
         _ => return None,
     };
-    Some([both, &[], &[]])
+    Some([both, "", ""])
 }
 
 /// The gaze's profile, which no hand has, and its only path.
@@ -135,12 +61,7 @@ pub(crate) fn is_gaze(profile: &str, path: &str) -> bool {
 }
 
 /// Poses of every hand's profile.
-const POSES: [&str; 4] = [
-    "input/grip",
-    "input/grip/pose",
-    "input/aim",
-    "input/aim/pose",
-];
+const POSES: &str = "input/grip input/grip/pose input/aim input/aim/pose";
 
 /// Whether the profile is supported.
 pub(crate) fn is_known(profile: &str, extensions: &[String]) -> bool {
@@ -155,8 +76,9 @@ pub(crate) fn has(profile: &str, extensions: &[String], side: usize, control: &s
     if profile == GAZE {
         return false;
     }
-    let of = [&POSES[..], controls[0], controls[1 + side]];
-    of.iter().any(|list| list.contains(&control))
+    let of = [POSES, controls[0], controls[1 + side]];
+    let mut known = of.iter().flat_map(|list| list.split_whitespace());
+    known.any(|known| known == control)
 }
 
 /// The value of a control; a button's is 0 or 1.

@@ -1,11 +1,11 @@
-// Which particles rest (`sim/sleep.wgsl`). They lie behind all others in each array, so a pass over particles ends before them, and the places and
+// Which particles sleep (`sim/sleep.wgsl`). They lie behind all others in each array, so a pass over particles ends before them, and the places and
 // lists that they have stay valid.
 //!include common/liquid/particle.wgsl
 
-/// Whether liquid that rests is left out.
+/// Whether liquid that sleeps is left out.
 override SLEEP: bool = false;
 
-/// Number of particles that do not rest; number of those that rebuilds of this frame sort; then, by flask, whether its liquid rests.
+/// Number of particles that are awake; number of those that rebuilds of this frame sort; then, by flask, whether its liquid sleeps.
 @group(0) @binding(59) var<storage, read> sleep: array<u32>;
 
 const SLEEP_AWAKE = 0u;
@@ -18,7 +18,7 @@ fn awake_count() -> u32 {
     return COUNT;
 }
 
-/// Whether particles of a membership rest.
+/// Whether particles of a membership sleep.
 fn sleeps(membership: u32) -> bool {
     if (SLEEP) {
         if (membership == NOBODYS) { return false; }

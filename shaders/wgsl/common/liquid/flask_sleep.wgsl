@@ -1,4 +1,4 @@
-// What is noted of each flask to tell whether its liquid rests.
+// What is noted of each flask to tell whether its liquid sleeps.
 //!include common/glass/vessel.wgsl
 //!include common/liquid/particle.wgsl
 
@@ -19,7 +19,7 @@ struct FlaskSleep {
 
 @group(0) @binding(60) var<storage, read_write> flask_sleeps: array<FlaskSleep>;
 
-/// Distance that liquid and moving flasks keep from a flask whose liquid rests, m (`solver/sleep.rs`).
+/// Distance that liquid and moving flasks keep from a flask whose liquid sleeps, m (`solver/sleep.rs`).
 override CLEARANCE: f32 = 0.03;
 
 /// A sphere about a flask at `pose`: its middle and radius.

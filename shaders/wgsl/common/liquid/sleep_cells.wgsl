@@ -1,4 +1,4 @@
-// The table of cells has a second half for liquid that rests: sorted by cell, it lies behind all other liquid, and neither finds the other.
+// The table of cells has a second half for liquid that sleeps: sorted by cell, it lies behind all other liquid, and neither finds the other.
 //!include common/liquid/awake.wgsl
 //!include common/liquid/cells.wgsl
 

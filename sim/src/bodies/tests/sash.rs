@@ -3,7 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use super::*;
-use crate::bodies::{Role, ToolSpec, Worn};
+use crate::bodies::{Role, ToolSpec};
 
 const LOWEST: f32 = TABLE_TOP + 0.012;
 const HIGHEST: f32 = LOWEST + 0.5;
@@ -24,18 +24,8 @@ fn hood(flask: Vec3, up: f32) -> Bodies {
         pane: PANE,
     };
     Bodies::new(&BodiesSpec {
-        gravity: Vec3::new(0.0, -G, 0.0),
-        step: STEP,
-        length_scale: 1.0,
-        table: Some(Table {
-            top: TABLE_TOP,
-            centre: Vec2::ZERO,
-            size: Vec2::new(4.0, 4.0),
-        }),
-        floor: 0.0,
-        flasks: vec![beaker(Pose::from_position(flask))],
         tools: vec![ToolSpec { body, role }],
-        worn: Worn::default(),
+        ..on_table(vec![beaker(Pose::from_position(flask))])
     })
     .unwrap()
 }

@@ -5,14 +5,8 @@ use crate::bodies::BodiesError;
 
 fn spec(flasks: Vec<BodySpec>) -> BodiesSpec {
     BodiesSpec {
-        gravity: Vec3::new(0.0, -G, 0.0),
-        step: STEP,
-        length_scale: 1.0,
         table: None,
-        floor: 0.0,
-        flasks,
-        tools: Vec::new(),
-        worn: crate::bodies::Worn::default(),
+        ..on_table(flasks)
     }
 }
 

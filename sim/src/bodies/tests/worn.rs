@@ -20,24 +20,14 @@ const EYES: Vec3 = Vec3::new(0.0, 1.2, 0.1);
 
 /// A beaker, and on the bench beside it goggles, a box of gloves and a rod that lies along x.
 fn laboratory() -> Bodies {
-    let on_table = |x: f32, lift: f32| Vec3::new(x, TABLE_TOP + lift, 0.0);
-    let goggles = cylinder(0.075, 0.06, Pose::from_position(on_table(-0.4, 0.0)));
-    let mut gloves = cylinder(0.08, 0.09, Pose::from_position(on_table(-0.7, 0.0)));
+    let at = |x: f32, lift: f32| Vec3::new(x, TABLE_TOP + lift, 0.0);
+    let goggles = cylinder(0.075, 0.06, Pose::from_position(at(-0.4, 0.0)));
+    let mut gloves = cylinder(0.08, 0.09, Pose::from_position(at(-0.7, 0.0)));
     gloves.fixed = true;
     let lying = Quat::from_rotation_z(std::f32::consts::FRAC_PI_2);
-    let rod = cylinder(0.0035, 0.25, Pose::new(on_table(0.6, 0.0035), lying));
+    let rod = cylinder(0.0035, 0.25, Pose::new(at(0.6, 0.0035), lying));
     let tool = |body, role| ToolSpec { body, role };
     Bodies::new(&BodiesSpec {
-        gravity: Vec3::new(0.0, -G, 0.0),
-        step: STEP,
-        length_scale: 1.0,
-        table: Some(Table {
-            top: TABLE_TOP,
-            centre: Vec2::ZERO,
-            size: Vec2::new(4.0, 4.0),
-        }),
-        floor: 0.0,
-        flasks: vec![beaker(Pose::from_position(on_table(0.0, 0.0)))],
         tools: vec![
             tool(goggles, Role::Goggles),
             tool(gloves, Role::Gloves),
@@ -47,6 +37,7 @@ fn laboratory() -> Bodies {
             goggles: Some(false),
             gloves: Some([false; 2]),
         },
+        ..on_table(vec![beaker(Pose::from_position(at(0.0, 0.0)))])
     })
     .unwrap()
 }

@@ -1,6 +1,7 @@
 //! Requirements on the whole step for a liquid that is left alone.
 
 use super::*;
+use crate::parameters::Relaxation;
 
 #[test]
 fn free_fall_is_exact() {

@@ -1,6 +1,6 @@
 //! Where tools may be, and the error for one that is elsewhere.
 
-use super::GOOD;
+use super::{GOOD, assert_parts};
 use crate::scene::{Scene, ToolKind};
 
 const TABLE: &str = "[table]\ntop = 0.5\ncentre = [0.0, 0.0]\nsize = [1.2, 0.6]\n";
@@ -27,14 +27,14 @@ fn tools_lie_on_the_bench() {
     ];
     for (position, field, must) in cases {
         let error = cloth(position).unwrap_err();
-        assert!(error.contains(field) && error.contains(must), "{error}");
+        assert_parts(&error, &[field, must]);
     }
     // A tool that lies on its side counts by its middle.
     scene(TABLE, &[("rod", "[0.59, 0.5, 0.0]", "")]).unwrap();
     // Without a table it lies where it is put.
     scene("", &[("cloth", "[5.0, 0.0, 0.0]", "")]).unwrap();
     let twice = scene(TABLE, &[("rod", "[0.0, 0.5, 0.0]", ""); 2]).unwrap_err();
-    assert!(twice.contains("tool[1].kind") && twice.contains("one of each"));
+    assert_parts(&twice, &["tool[1].kind", "one of each"]);
     let worn = scene(TABLE, &[("rod", "[0.0, 0.5, 0.0]", "worn = true\n")]).unwrap_err();
     assert!(worn.contains("tool[0].worn"), "{worn}");
 }
@@ -50,8 +50,8 @@ fn a_sash_slides_over_the_bench() {
     }
     for position in ["[0.0, 0.49, 0.2]", "[0.0, 1.06, 0.2]"] {
         let error = sash(position).unwrap_err();
-        assert!(error.contains("tool[0].position[1]") && error.contains("0.55 m"));
+        assert_parts(&error, &["tool[0].position[1]", "0.55 m"]);
     }
     let error = scene("", &[("sash", "[0.0, 0.5, 0.2]", "")]).unwrap_err();
-    assert!(error.contains("tool[0].kind") && error.contains("[table]"));
+    assert_parts(&error, &["tool[0].kind", "[table]"]);
 }
