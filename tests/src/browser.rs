@@ -11,7 +11,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Instant;
 
 use crate::installed::not_tested;
-use crate::program::Killed;
+use crate::program::Kept;
 use crate::wait::PATIENCE;
 
 /// Names under which Chromium is installed, first found first taken.
@@ -103,7 +103,7 @@ pub fn photograph(page: &Path, size: (u32, u32), look: Look, picture: &Path) -> 
 
 /// A browser at work, with a profile of its own; both go when this is dropped.
 struct Browser {
-    _child: Killed,
+    _child: Kept,
     lines: Receiver<String>,
     // Declared last: the profile may only go after the browser has.
     _profile: tempfile::TempDir,
@@ -141,7 +141,7 @@ impl Browser {
             }
         });
         Some(Self {
-            _child: Killed(child),
+            _child: Kept(child),
             lines,
             _profile: profile,
         })

@@ -13,7 +13,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 use crate::browser::{Look, find_or_say};
-use crate::program::Killed;
+use crate::program::Kept;
 use crate::wait::PATIENCE;
 
 /// Time between two queries of a page.
@@ -21,7 +21,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// A tab. The browser goes when this is dropped.
 pub struct Tab {
-    _child: Killed,
+    _child: Kept,
     to: ChildStdin,
     from: Receiver<Value>,
     session: String,
@@ -71,7 +71,7 @@ impl Tab {
             }
         });
         let mut tab = Self {
-            _child: Killed(child),
+            _child: Kept(child),
             to,
             from: receiver,
             session: String::new(),

@@ -4,7 +4,7 @@
 use std::ops::Deref;
 use std::sync::OnceLock;
 
-use vitriol_gpu::{Gpu, Options, PlainLoader};
+use vitriol_gpu::{Gpu, Image, Options, PlainLoader, QueueKind, Readback};
 
 /// A device that is watched: dropped at a test's end, it panics where the
 /// validation layer has reported anything. Keep it to the end; declared
@@ -36,6 +36,18 @@ pub fn device() -> Watched {
 /// As [`device`].
 pub fn another_device(change: impl FnOnce(&mut Options)) -> Watched {
     Watched(open(change))
+}
+
+/// An image as the device has it, with all layers.
+///
+/// # Panics
+/// Where it cannot be read.
+#[must_use]
+pub fn read_back(gpu: &Gpu, image: &Image) -> Readback {
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let read = rec.read_back_image(image).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    read
 }
 
 fn open(change: impl FnOnce(&mut Options)) -> Gpu {

@@ -8,7 +8,7 @@ use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::program::Killed;
+use crate::program::Kept;
 use crate::rig::{self, MANIFEST};
 use crate::wait::until;
 pub use remote::{Controller, Remote};
@@ -19,7 +19,7 @@ const PORT: u16 = 4242;
 /// The rig seen from inside, with its service running.
 pub struct Rig {
     folder: PathBuf,
-    service: Option<Killed>,
+    service: Option<Kept>,
 }
 
 /// Runs the test `name` (module path and function, as the test's own runner knows it) in the rig: returns the rig in the process that runs
@@ -89,7 +89,7 @@ impl Rig {
             .env_remove("XR_ENABLE_API_LAYERS")
             .spawn()
             .expect("monado-service starts");
-        self.service = Some(Killed(service));
+        self.service = Some(Kept(service));
         // Its socket exists before it listens; its message that it has started comes after.
         until("monado-service listens", || {
             (self.starts() > before).then_some(())

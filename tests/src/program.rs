@@ -1,5 +1,6 @@
 //! A program run from outside, in a folder.
 
+use std::ops::{Deref, DerefMut};
 use std::path::Path;
 use std::process::{Child, Command, Output};
 
@@ -41,13 +42,27 @@ pub(crate) fn output(mut command: Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// A process that is killed when this is dropped.
+/// A program at work, which does not outlive the test.
 #[derive(Debug)]
-pub(crate) struct Killed(pub Child);
+pub struct Kept(pub Child);
 
-impl Drop for Killed {
+impl Deref for Kept {
+    type Target = Child;
+
+    fn deref(&self) -> &Child {
+        &self.0
+    }
+}
+
+impl DerefMut for Kept {
+    fn deref_mut(&mut self) -> &mut Child {
+        &mut self.0
+    }
+}
+
+impl Drop for Kept {
     fn drop(&mut self) {
-        // It fails if the process has ended by itself, which is fine.
+        // It fails if the program has ended by itself, which is fine.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }

@@ -4,7 +4,7 @@ use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::program::{Killed, output};
+use crate::program::{Kept, output};
 use crate::{installed, wait};
 
 /// User name and password that may write to it, as in a token's file.
@@ -37,7 +37,7 @@ pub struct Ralph {
 /// A running server, which is killed when this is dropped.
 #[derive(Debug)]
 pub struct Server {
-    child: Killed,
+    child: Kept,
     /// Its address.
     pub address: String,
 }
@@ -87,11 +87,11 @@ impl Ralph {
             .spawn()
             .unwrap();
         let mut server = Server {
-            child: Killed(child),
+            child: Kept(child),
             address: format!("http://127.0.0.1:{port}/xAPI"),
         };
         wait::until("Ralph answers", || {
-            let ended = server.child.0.try_wait().unwrap();
+            let ended = server.child.try_wait().unwrap();
             assert!(ended.is_none(), "Ralph ended: {ended:?}");
             TcpStream::connect(("127.0.0.1", port)).ok()
         });

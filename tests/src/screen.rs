@@ -14,7 +14,7 @@ use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
 use crate::installed::not_tested;
-use crate::program::Killed;
+use crate::program::Kept;
 use crate::wait::until;
 
 /// Marks a test that runs on the screen.
@@ -113,7 +113,7 @@ pub fn enter(name: &str) -> Option<Screen> {
 }
 
 struct Server {
-    _child: Killed,
+    _child: Kept,
     display: String,
 }
 
@@ -133,7 +133,7 @@ impl Server {
         // It prints its number once it listens.
         let _ = BufReader::new(stdout).read_line(&mut number);
         let server = Self {
-            _child: Killed(child),
+            _child: Kept(child),
             display: format!(":{}", number.trim()),
         };
         match number.trim().is_empty() {

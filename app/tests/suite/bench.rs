@@ -5,10 +5,9 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::{Program, words};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+use vitriol_tests::program::words;
 
 /// What a peer prints that is well.
 const ANSWER: &str = r#"{"name": "Fake", "version": "1.2", "device": "none", "particles": 300, "times_ms": [2000.0, 4000.0, 3000.0], "density_error_mean": 0.25, "density_error_p99": 0.5}"#;

@@ -11,17 +11,11 @@ mod unseen;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
+use crate::VITRIOL;
 use vitriol_lesson::Attempt;
 use vitriol_record::{Keeping, Scored, Session, keep};
-use vitriol_tests::program::Program;
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
-
-fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
-    VITRIOL.run(folder, arguments)
-}
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
@@ -35,7 +29,7 @@ fn refuses(folder: &Path, arguments: &[&str], code: i32, parts: &[&str]) {
         if json {
             arguments.push("--json");
         }
-        let output = vitriol(folder, &arguments);
+        let output = VITRIOL.run(folder, &arguments);
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
         assert_eq!(text(&output.stdout), "", "{arguments:?}");
@@ -59,7 +53,7 @@ fn object(folder: &Path, arguments: &[&str]) -> serde_json::Value {
 fn help_names_every_subcommand_and_its_options() {
     let folder = tempfile::tempdir().unwrap();
     let help = |arguments: &[&str]| {
-        let output = vitriol(folder.path(), arguments);
+        let output = VITRIOL.run(folder.path(), arguments);
         assert!(output.status.success(), "{arguments:?}");
         text(&output.stdout).to_owned()
     };

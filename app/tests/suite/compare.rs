@@ -2,10 +2,9 @@
 
 use std::fs;
 
+use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::{Program, words};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+use vitriol_tests::program::words;
 
 /// What cannot be compared is refused before anything is made, with what to do instead.
 #[test]

@@ -1,16 +1,18 @@
 //! The programs that an instructor's browser meets: a session whose hub is elsewhere, and a replay that it watches.
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStderr, Command, Stdio};
+use std::path::Path;
+use std::process::{ChildStderr, Command, Stdio};
 
+use crate::vr::common::scene;
 use serde_json::Value;
 use vitriol_tests::devtools::Tab;
+use vitriol_tests::program::Kept;
 use vitriol_tests::wait::until;
 
-/// A program at work, which is ended with the test.
+/// The program at work.
 struct Running {
-    child: Child,
+    child: Kept,
     stderr: BufReader<ChildStderr>,
 }
 
@@ -26,6 +28,7 @@ impl Running {
             .spawn()
             .unwrap();
         let stderr = BufReader::new(child.stderr.take().unwrap());
+        let child = Kept(child);
         Self { child, stderr }
     }
 
@@ -60,26 +63,6 @@ impl Running {
     }
 }
 
-impl Drop for Running {
-    fn drop(&mut self) {
-        // Fails where it has ended by itself, which is as well.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// `two-flasks` with 1,200 particles.
-fn small(folder: &Path) -> PathBuf {
-    let text = include_str!("../../../sim/scenes/two-flasks.toml");
-    let small = text
-        .replace("spacing = 0.0025 ", "spacing = 0.005 ")
-        .replace("substeps = 10", "substeps = 5");
-    assert_ne!(small, text);
-    let file = folder.join("small.toml");
-    std::fs::write(&file, small).unwrap();
-    file
-}
-
 fn at(id: &str) -> String {
     format!("document.getElementById('{id}')")
 }
@@ -107,7 +90,7 @@ fn a_class_has_one_console() {
     tab.go(told["console"].as_str().unwrap());
     tab.until(&format!("!{}.hidden", at("class")));
 
-    let scene = small(folder);
+    let scene = scene(folder);
     let session = Running::start(
         folder,
         &[
@@ -150,7 +133,7 @@ fn a_replay_is_watched_and_held() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(mut tab) = Tab::new() else { return };
-    let scene = small(folder);
+    let scene = scene(folder);
     let arguments = [
         "replay",
         "--json",

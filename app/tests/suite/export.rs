@@ -8,10 +8,9 @@ mod times;
 use std::path::Path;
 use std::process::Output;
 
+use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::{Program, words};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+use vitriol_tests::program::words;
 
 /// The program's end with the words of a line as arguments.
 fn run(folder: &Path, line: &str) -> Output {

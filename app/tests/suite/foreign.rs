@@ -4,16 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::VITRIOL;
 use vitriol_sim::scene::Scene;
-use vitriol_tests::program::Program;
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Existing, Track, load, save};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
-
-fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
-    VITRIOL.run(folder, arguments)
-}
 
 /// Everything that was printed.
 fn said(output: &Output) -> String {
@@ -58,7 +52,7 @@ fn a_track_reaches_no_file() {
                 &["replay", track, "--no-video"][..],
                 &["picture", track, "--at", "0.02", "-o", "x.png"],
             ] {
-                let output = vitriol(here, command);
+                let output = VITRIOL.run(here, command);
                 let said = said(&output);
                 assert_eq!(output.status.code(), Some(2), "{command:?} {scene}: {said}");
                 assert!(said.contains("does not carry"), "{said}");
@@ -71,7 +65,7 @@ fn a_track_reaches_no_file() {
         track.metadata.scene = "mine.toml".into();
     });
     let arguments = ["replay", "named.mcap", "--no-video", "--scene", "mine.toml"];
-    let output = vitriol(here, &arguments);
+    let output = VITRIOL.run(here, &arguments);
     assert!(output.status.success(), "{}", said(&output));
 }
 
@@ -85,7 +79,7 @@ fn what_a_track_carries_is_held_to_what_any_scene_is() {
         track.metadata.scene = "mine.toml".into();
         track.metadata.scenes.insert("mine.toml".into(), fine);
     });
-    let output = vitriol(folder.path(), &["replay", "x.mcap"]);
+    let output = VITRIOL.run(folder.path(), &["replay", "x.mcap"]);
     let said = said(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(
@@ -117,7 +111,7 @@ fn folders_pipes_and_devices_are_refused() {
             &["replay", "two-flasks", "--scene", file],
             &["bench", "--scene", file],
         ] {
-            let output = vitriol(here, arguments);
+            let output = VITRIOL.run(here, arguments);
             let said = said(&output);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
             assert!(said.contains(kind), "{arguments:?}: {said}");
@@ -160,7 +154,7 @@ fn a_tracks_texts_do_not_steer_the_terminal() {
         (&["replay", "runs.mcap", "--no-video"], true),
         (&["replay", "runs.mcap", "--no-video", "--json"], true),
     ] {
-        let output = vitriol(folder.path(), arguments);
+        let output = VITRIOL.run(folder.path(), arguments);
         let said = said(&output);
         assert_eq!(output.status.success(), works, "{arguments:?}: {said}");
         let shown = said.contains(r"\u{1b}[2J\u{202e}x") || said.contains(r"\u001b[2J\u202ex");
@@ -187,14 +181,14 @@ fn missing_steps_are_said_and_not_filled_in() {
         }
     });
     let replay = ["replay", "holed.mcap", "--no-video", "--json"];
-    let output = vitriol(here, &replay);
+    let output = VITRIOL.run(here, &replay);
     assert_eq!(output.status.code(), Some(2));
     let message = said(&output);
     let parts = ["3 steps are missing", "0.0667 s", "--accept-truncated"];
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
-    assert!(said(&vitriol(here, &["track", "holed.mcap"])).contains("3 steps are missing."));
+    assert!(said(&VITRIOL.run(here, &["track", "holed.mcap"])).contains("3 steps are missing."));
 
-    let output = vitriol(here, &[&replay[..], &["--accept-truncated"]].concat());
+    let output = VITRIOL.run(here, &[&replay[..], &["--accept-truncated"]].concat());
     assert!(output.status.success(), "{}", said(&output));
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let simulated = report["simulated_s"].as_f64().unwrap();
@@ -213,7 +207,7 @@ fn what_breaks_off_is_not_made_whole() {
     });
     let bytes = fs::read(here.join("whole.mcap")).unwrap();
     fs::write(here.join("cut.mcap"), &bytes[..bytes.len() - 20]).unwrap();
-    let saved = vitriol(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
+    let saved = VITRIOL.run(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
     assert!(saved.status.success(), "{}", said(&saved));
     foreign(here, "late.mcap", |track| {
         track.metadata.scene = "beaker".into();
@@ -229,14 +223,14 @@ fn what_breaks_off_is_not_made_whole() {
             &["replay", track, "--no-video"][..],
             &["picture", track, "--at", "0.02", "-o", "x.png"],
         ] {
-            let output = vitriol(here, command);
+            let output = VITRIOL.run(here, command);
             let said = said(&output);
             assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
             assert!(said.contains(says), "{command:?}: {said}");
         }
     }
     let accepted = ["replay", "saved.mcap", "--no-video", "--accept-truncated"];
-    assert!(vitriol(here, &accepted).status.success());
+    assert!(VITRIOL.run(here, &accepted).status.success());
 }
 
 /// A scene whose steps are so short that a run would take for ever, and a track of hours.
@@ -256,7 +250,7 @@ fn a_run_has_an_end() {
             track.metadata.scenes.insert("x.toml".into(), short);
             track.frames[2].time_ns = 10_000_000_000_000;
         });
-        let output = vitriol(folder.path(), &["replay", "x.mcap", "--no-video"]);
+        let output = VITRIOL.run(folder.path(), &["replay", "x.mcap", "--no-video"]);
         let said = said(&output);
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(says), "{said}");
@@ -292,14 +286,14 @@ mod long {
             "--no-mirror",
             "--json",
         ];
-        let output = vitriol(here, &session);
+        let output = VITRIOL.run(here, &session);
         assert!(output.status.success(), "{}", said(&output));
         let session: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         fs::remove_file(here.join("small.toml")).unwrap();
 
         let replayed = |arguments: &[&str]| -> serde_json::Value {
             let all = [&["replay", "x.mcap", "--no-video", "--json"], arguments].concat();
-            let output = vitriol(here, &all);
+            let output = VITRIOL.run(here, &all);
             assert!(output.status.success(), "{}", said(&output));
             serde_json::from_slice(&output.stdout).unwrap()
         };

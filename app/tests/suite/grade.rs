@@ -9,17 +9,16 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
 
+use crate::VITRIOL;
 use vitriol::command::grade::{Status, Verdict};
 use vitriol_lesson::{Attempt, Event, Language};
 use vitriol_record::{Keeping, Scored, Session, Timestamp, keep};
 use vitriol_run::{Failure, Setup};
-use vitriol_tests::program::Program;
 use vitriol_tests::wait;
 use vitriol_xr::Switch;
 
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
-
-use toy::{DEVICE, Made, SCENE, Toy, class, events, graded, line, nobody, put, read, recording};
+use crate::replay::toy::DEVICE;
+use toy::{Made, SCENE, class, events, finding, graded, line, nobody, put, read, recording};
 
 /// Twelve are read without a device; a spoiled file is a line among them and one warning, and the exit code says it where it is asked to.
 #[test]
@@ -140,7 +139,7 @@ fn another_scene_is_listed_and_never_graded() {
     put(here, "again.mcap", &again);
 
     let (class, failure) = graded(here, &["--verify"], |_| {
-        Ok(Box::new(Toy::new(events(0.0), DEVICE[1])))
+        Ok(Box::new(finding(events(0.0), DEVICE[1])))
     })
     .unwrap();
     assert!(failure.is_none());
@@ -273,7 +272,7 @@ fn a_simulation_confirms_or_refutes() {
         let more = ["--verify", "--out", out.to_str().unwrap()];
         let toy = |setup: &Setup<'_>| -> Made {
             assert_eq!((setup.scene_name, setup.preset.name()), (SCENE, "fast"));
-            Ok(Box::new(Toy::new(events(truth), driver)))
+            Ok(Box::new(finding(events(truth), driver)))
         };
         let (class, failure) = graded(&file, &more, toy).unwrap();
         assert!(failure.is_none());
@@ -310,10 +309,10 @@ fn a_simulation_confirms_or_refutes() {
     assert!(page.contains(&texts.head));
     // For another device it is simulated anew, as by another tolerance.
     let elsewhere = [&again[..], &["--device", "1"]].concat();
-    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(finding(events(2.0), DEVICE[1]))) };
     assert_eq!(graded(here, &elsewhere, toy).unwrap().0.taken, 0);
     let strict = [&again[..], &["--tolerance", "0.2,0,0.01"]].concat();
-    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.08), "another"))) };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(finding(events(2.08), "another"))) };
     let (class, _) = graded(here, &strict, toy).unwrap();
     assert_eq!(class.taken, 0);
     let found = line(&class, "other-device");
@@ -323,7 +322,7 @@ fn a_simulation_confirms_or_refutes() {
     read(here, &more);
     let page = fs::read_to_string(out.join("grades.html")).unwrap();
     assert!(!page.contains(&texts.head), "{page}");
-    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(finding(events(2.0), DEVICE[1]))) };
     assert_eq!(graded(here, &again, toy).unwrap().0.taken, 0);
 }
 

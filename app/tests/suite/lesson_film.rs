@@ -1,13 +1,9 @@
 //! A lesson's film, made by the program.
 
 use std::fs;
-use std::path::Path;
-use std::process::Output;
 
+use crate::VITRIOL;
 use vitriol_lesson::{Language, Lesson};
-use vitriol_tests::program::Program;
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
 
 /// A third of a second in which nobody does anything.
 const KEYFRAMES: &str = r#"
@@ -16,10 +12,6 @@ scene = "acid-into-water"
 duration = 0.3
 head = [{ t = 0.0, position = [0.0, 1.2, 0.0] }]
 "#;
-
-fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
-    VITRIOL.run(folder, arguments)
-}
 
 fn count(bytes: &[u8], part: &[u8]) -> usize {
     bytes.windows(part.len()).filter(|it| *it == part).count()
@@ -32,7 +24,7 @@ fn a_lesson_has_a_film_with_subtitles() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("still.toml"), KEYFRAMES).unwrap();
-    let made = vitriol(here, &["track", "still.toml", "-o", "still.mcap"]);
+    let made = VITRIOL.run(here, &["track", "still.toml", "-o", "still.mcap"]);
     assert!(made.status.success());
 
     let film = ["lesson", "dilute", "--film", "films/dilute.mp4"];
@@ -58,7 +50,7 @@ fn a_lesson_has_a_film_with_subtitles() {
         assert!(count(&film, title.as_bytes()) > 0, "{language}: {title}");
     }
 
-    let again = vitriol(here, &arguments);
+    let again = VITRIOL.run(here, &arguments);
     assert_eq!(again.status.code(), Some(2));
     let said = String::from_utf8(again.stderr).unwrap();
     assert!(
@@ -75,7 +67,7 @@ fn a_lesson_has_a_film_with_subtitles() {
         "--track",
         "none",
     ];
-    assert_eq!(vitriol(here, &nowhere).status.code(), Some(2));
+    assert_eq!(VITRIOL.run(here, &nowhere).status.code(), Some(2));
     // One that is made for another scene is filmed all the same, and is told; no device of that name makes the film here.
     let elsewhere = [
         "lesson",
@@ -87,7 +79,7 @@ fn a_lesson_has_a_film_with_subtitles() {
         "--device",
         "Voodoo",
     ];
-    let none = vitriol(here, &elsewhere);
+    let none = VITRIOL.run(here, &elsewhere);
     assert!(!none.status.success());
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
@@ -95,11 +87,11 @@ fn a_lesson_has_a_film_with_subtitles() {
         "{said}"
     );
     // No built-in track is made for its scene.
-    let own = vitriol(here, &["lesson", "wrong-order-hot", "--toml"]);
+    let own = VITRIOL.run(here, &["lesson", "wrong-order-hot", "--toml"]);
     let own = String::from_utf8(own.stdout).unwrap();
     let elsewhere = own.replace("scene = \"hot-acid\"", "scene = \"hot-acid-85\"");
     fs::write(here.join("own.toml"), elsewhere).unwrap();
-    let none = vitriol(here, &["lesson", "own.toml", "--film", "other/none.mp4"]);
+    let none = VITRIOL.run(here, &["lesson", "own.toml", "--film", "other/none.mp4"]);
     assert_eq!(none.status.code(), Some(2));
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(

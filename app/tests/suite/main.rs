@@ -25,3 +25,8 @@ mod several;
 #[cfg(target_os = "linux")]
 mod slurm;
 mod vr;
+
+use vitriol_tests::program::Program;
+
+/// The program under test.
+const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));

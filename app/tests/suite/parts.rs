@@ -4,9 +4,8 @@
 use std::fs;
 use std::path::Path;
 
-use vitriol_tests::program::{Program, words};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+use crate::VITRIOL;
+use vitriol_tests::program::words;
 
 fn runs(folder: &Path, line: &str) {
     let output = VITRIOL.run(folder, &words(line));

@@ -3,18 +3,17 @@
 
 mod idle;
 mod language;
-mod toy;
+pub(crate) mod toy;
 
 use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
-use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
 use vitriol_run::{Action, Colour, Experiment, Failure, Format, Setup};
 
-use toy::{FLASK, Toy, replay, replay_of, report_of};
+use toy::{FLASK, Toy, asked, events, replay, replay_of, report_of};
 use vitriol_lesson::{Attempt, Event, Rubric, Texts};
 use vitriol_record::store::Store;
 use vitriol_sim::scene::PictureRoom;
@@ -34,7 +33,7 @@ fn what_was_found_is_kept_under_a_pseudonym() {
         let out = folder.path().join(name);
         let options = [&["--no-video"], more].concat();
         let finds = || Toy {
-            finds: true,
+            finds: Box::new(events),
             instructions: vec![(0.5, Action::Message("Slowly <please>".into()))],
             ..Toy::new(u64::MAX)
         };
@@ -137,7 +136,7 @@ fn numbers_come_through() {
 fn the_room_of_a_film_is_asked_for_again() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("dark");
-    let asked = Cell::new(None);
+    let room = Cell::new(None);
     let line = [
         "vitriol",
         "replay",
@@ -149,15 +148,12 @@ fn the_room_of_a_film_is_asked_for_again() {
         "--out",
     ];
     let line = line.into_iter().chain([out.to_str().unwrap()]);
-    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(line).command else {
-        panic!("replay is parsed as another command");
-    };
-    run(&args, Format::Json, |setup| {
-        asked.set(setup.room);
+    run(&asked(line), Format::Json, |setup| {
+        room.set(setup.room);
         Ok(Box::new(Toy::new(u64::MAX)))
     })
     .unwrap();
-    assert_eq!(asked.get(), Some(PictureRoom::Dark));
+    assert_eq!(room.get(), Some(PictureRoom::Dark));
     let command = report_of(&out).command;
     assert!(command.contains(" --room dark"), "{command}");
 }
@@ -200,9 +196,7 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     };
     let arguments = "vitriol replay two-flasks --scene water-into-acid --seconds 4 --out";
     let arguments = arguments.split(' ').chain([out.to_str().unwrap()]);
-    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
-        panic!("replay is parsed as another command");
-    };
+    let args = asked(arguments);
     run(&args, Format::Json, hot).unwrap();
     let report = report_of(&out);
     let films = [report.film.clone(), report.film_temperature.clone()].map(Option::unwrap);

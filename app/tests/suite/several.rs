@@ -2,10 +2,9 @@
 
 use std::fs;
 
+use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::{Program, words};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+use vitriol_tests::program::words;
 
 /// Several tracks in one call: a folder each, one that fails stops no other, progress as JSON lines that end with the last
 /// step.

@@ -5,15 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::VITRIOL;
+use crate::vr::common::scene;
 use vitriol_lesson::{Cause, Event, Incident, Surface, What};
 use vitriol_run::{Observer, Progress, Scenes, Setup, Span, on_device};
-use vitriol_sim::scene::{Preset, Scene};
-use vitriol_tests::program::{Program, words};
+use vitriol_sim::scene::Preset;
+use vitriol_tests::program::words;
 use vitriol_tests::slurm::Slurm;
 use vitriol_tests::{gpu, wait};
 use vitriol_xr::track::{Existing, Track, TrackSource, save};
-
-const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
 
 const STUDENTS: u32 = 6;
 /// The one whose task is killed.
@@ -28,23 +28,12 @@ track=$(ls class/*.mcap | sed -n "${SLURM_ARRAY_TASK_ID}p")
 exec vitriol grade "$track" --scene small.toml --preset fast --verify --out grades
 "#;
 
-/// `two-flasks` with few particles, as the teacher has it.
-fn scene(folder: &Path) -> String {
-    let text = Scene::builtin_text("two-flasks").unwrap();
-    let small = text
-        .replace("spacing = 0.0025 ", "spacing = 0.005 ")
-        .replace("substeps = 10", "substeps = 5");
-    assert_ne!(small, text);
-    fs::write(folder.join("small.toml"), &small).unwrap();
-    small
-}
-
 /// Half a second, with what a simulation finds in it.
 fn recording(folder: &Path) -> Track {
     let mut track = vitriol_run::track::load("two-flasks").unwrap();
     track.frames.truncate(46);
     track.stage_from_flasks.truncate(46);
-    let text = scene(folder);
+    let text = fs::read_to_string(scene(folder)).unwrap();
     track.metadata.scene = "small.toml".into();
     track.metadata.scenes = [("small.toml".to_owned(), text)].into();
     track.metadata.program_version = env!("CARGO_PKG_VERSION").into();

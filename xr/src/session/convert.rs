@@ -126,9 +126,11 @@ pub(super) fn failed(call: &'static str) -> impl Fn(xr::sys::Result) -> CallFail
         | R::ERROR_INSTANCE_LOST
         | R::ERROR_RUNTIME_UNAVAILABLE
         | R::ERROR_RUNTIME_FAILURE => CallFailure::Lost(format!("{call}: {answer}")),
-        _ => CallFailure::Fatal(HeadsetError::Refused {
-            call,
-            cause: answer.to_string(),
-        }),
+        _ => refused(call, answer.to_string()),
     }
+}
+
+/// `call` gave nothing that can be used, for that cause.
+pub(super) fn refused(call: &'static str, cause: String) -> CallFailure {
+    CallFailure::Fatal(HeadsetError::Refused { call, cause })
 }

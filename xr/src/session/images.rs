@@ -4,10 +4,10 @@ use openxr as xr;
 use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
 
 use super::chain::Chain;
-use super::convert::{CallFailure, failed};
+use super::convert::{CallFailure, failed, refused};
 use super::options::OpenXrOptions;
 use super::system::ConnectedHeadset;
-use crate::{HeadsetError, InsetTargets, Targets, depth_extent};
+use crate::{InsetTargets, Targets, depth_extent};
 
 /// The swapchains of a session.
 pub(super) struct Images {
@@ -46,10 +46,8 @@ impl Images {
         let offered = |format: vk::Format| formats.contains(&(format.as_raw() as u32));
         let (srgb, d32) = (vk::Format::R8G8B8A8_SRGB, vk::Format::D32_SFLOAT);
         if !offered(srgb) {
-            return Err(CallFailure::Fatal(HeadsetError::Refused {
-                call: "xrCreateSwapchain",
-                cause: "it has no images in 8-bit RGBA, sRGB".to_owned(),
-            }));
+            let cause = "it has no images in 8-bit RGBA, sRGB".to_owned();
+            return Err(refused("xrCreateSwapchain", cause));
         }
         let exts = session.instance().exts();
         let takes_depth = exts.khr_composition_layer_depth.is_some() && offered(d32);

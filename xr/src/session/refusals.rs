@@ -77,10 +77,10 @@ mod tests {
     use super::*;
 
     fn refused() -> Result<(), CallFailure> {
-        Err(CallFailure::Fatal(HeadsetError::Refused {
-            call: "xrSyncActions",
-            cause: "no".to_owned(),
-        }))
+        Err(super::super::convert::refused(
+            "xrSyncActions",
+            "no".to_owned(),
+        ))
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use openxr as xr;
 
-use super::convert::{CallFailure, failed};
+use super::convert::{CallFailure, failed, refused};
 use super::views::Views;
 use crate::{HeadsetError, probe};
 
@@ -67,11 +67,7 @@ pub(super) fn instance(
     wanted.varjo_foveated_rendering = false;
     let made = create(&wanted).map_err(absent)?;
     // Not `failed`: that takes some codes for a loss, and here the runtime is there.
-    CallFailure::Fatal(HeadsetError::Refused {
-        call: "xrCreateInstance",
-        cause: refusal.to_string(),
-    })
-    .do_without(INSET, made)
+    refused("xrCreateInstance", refusal.to_string()).do_without(INSET, made)
 }
 
 /// The headset of the instance's runtime, with an `inset` if that is wanted and there is one.
@@ -102,13 +98,9 @@ pub(super) fn headset(
         .graphics_requirements::<xr::Vulkan>(system)
         .map_err(failed("xrGetVulkanGraphicsRequirements2KHR"))?;
     if requirements.min_api_version_supported > xr::Version::new(1, 3, 0) {
-        return Err(CallFailure::Fatal(HeadsetError::Refused {
-            call: "xrGetVulkanGraphicsRequirements2KHR",
-            cause: format!(
-                "it wants Vulkan {}, and Vitriol uses 1.3",
-                requirements.min_api_version_supported
-            ),
-        }));
+        let wanted = requirements.min_api_version_supported;
+        let cause = format!("it wants Vulkan {wanted}, and Vitriol uses 1.3");
+        return Err(refused("xrGetVulkanGraphicsRequirements2KHR", cause));
     }
     let views = match inset {
         true => {

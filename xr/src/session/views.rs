@@ -7,8 +7,7 @@
 use openxr as xr;
 use xr::sys;
 
-use super::convert::{CallFailure, failed};
-use crate::HeadsetError;
+use super::convert::{CallFailure, failed, refused};
 
 /// Views of a session with an inset: the left and the right eye's, then the left and the right inset.
 const QUAD: usize = 4;
@@ -114,19 +113,17 @@ impl Views {
         };
         match found.len() < wanted {
             false => Ok((flags, found)),
-            true => Err(CallFailure::Fatal(HeadsetError::Refused {
-                call: "xrLocateViews",
-                cause: format!("it gives {} views of {wanted}", found.len()),
-            })),
+            true => {
+                let cause = format!("it gives {} views of {wanted}", found.len());
+                Err(refused("xrLocateViews", cause))
+            }
         }
     }
 }
 
 fn wrong(views: Views, cause: String) -> CallFailure {
-    CallFailure::Fatal(HeadsetError::Refused {
-        call: "xrEnumerateViewConfigurationViews",
-        cause: format!("{:?}: {cause}", views.kind()),
-    })
+    let cause = format!("{:?}: {cause}", views.kind());
+    refused("xrEnumerateViewConfigurationViews", cause)
 }
 
 /// Both eyes have a layer of one image: as large as the larger one, within both limits.

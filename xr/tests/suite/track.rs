@@ -16,6 +16,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
+use prost_reflect::{DescriptorPool, DynamicMessage, Value};
 use vitriol_xr::track::{
     Existing, Track, TrackError, TrackMetadata, TrackWriter, Written, load, save,
 };
@@ -142,6 +143,66 @@ pub fn bytes(track: &Track) -> Vec<u8> {
     let file = dir.path().join("track.mcap");
     write(&file, track);
     std::fs::read(&file).unwrap()
+}
+
+/// A metadata record: its name, and its keys with their values.
+pub type Record<'a> = (&'a str, &'a [(&'a str, &'a str)]);
+
+/// The one that each track has.
+pub const OWN: Record<'static> = (
+    "vitriol",
+    &[("scene", "s"), ("seed", "1"), ("program_version", "v")],
+);
+
+/// The bytes of a file that the container's library alone writes: these records, and what `fill` adds.
+pub fn foreign_bytes(
+    options: mcap::WriteOptions,
+    records: &[Record<'_>],
+    fill: impl FnOnce(&mut mcap::Writer<std::io::Cursor<&mut Vec<u8>>>),
+) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer = options.create(std::io::Cursor::new(&mut bytes)).unwrap();
+    for (name, map) in records {
+        let pairs = map.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+        let metadata = mcap::records::Metadata {
+            name: (*name).into(),
+            metadata: pairs.collect(),
+        };
+        writer.write_metadata(&metadata).unwrap();
+    }
+    fill(&mut writer);
+    writer.finish().unwrap();
+    drop(writer);
+    bytes
+}
+
+/// The same with the messages of a file of ours.
+pub fn copied(options: mcap::WriteOptions, records: &[Record<'_>], ours: &[u8]) -> Vec<u8> {
+    foreign_bytes(options, records, |writer| {
+        for message in mcap::MessageStream::new(ours).unwrap() {
+            writer.write(&message.unwrap()).unwrap();
+        }
+    })
+}
+
+/// A message, decoded with the schema in its file.
+pub fn decoded(message: &mcap::Message<'_>) -> DynamicMessage {
+    let schema = message.channel.schema.as_ref().unwrap();
+    let pool = DescriptorPool::decode(&schema.data[..]).unwrap();
+    let descriptor = pool.get_message_by_name(&schema.name).unwrap();
+    let decoded = DynamicMessage::decode(descriptor, &message.data[..]).unwrap();
+    assert_eq!(decoded.unknown_fields().count(), 0, "{decoded:?}");
+    decoded
+}
+
+/// A field of it.
+pub fn get(message: &DynamicMessage, name: &str) -> Value {
+    message.get_field_by_name(name).unwrap().into_owned()
+}
+
+/// The same of a field that is a number.
+pub fn number(message: &DynamicMessage, name: &str) -> f64 {
+    get(message, name).as_f64().unwrap()
 }
 
 /// All numbers of a frame as bits, so that -0.0 differs from 0.0.

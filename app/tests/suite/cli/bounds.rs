@@ -4,7 +4,7 @@ use std::fs;
 
 use vitriol_tests::program::words;
 
-use super::{object, refuses, text, vitriol};
+use super::{VITRIOL, object, refuses, text};
 
 /// A number that looks like an option is answered with its bound, not with how to give a file of that name.
 #[test]
@@ -41,7 +41,7 @@ fn a_negative_number_is_answered_with_its_bound() {
         ("extremes --only -1", "from 0 to"),
     ] {
         refuses(here, &words(line), 2, &[bound]);
-        let output = vitriol(here, &words(line));
+        let output = VITRIOL.run(here, &words(line));
         let message = text(&output.stderr);
         assert!(!message.contains("'-- "), "{line}: {message}");
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use vitriol_tests::editors::encodings;
 
-use super::{object, refuses, text, vitriol};
+use super::{VITRIOL, object, refuses, text};
 
 /// Writes a file that its owner alone may read, as a token's has to be.
 fn write(file: &Path, bytes: Vec<u8>) {
@@ -35,7 +35,7 @@ fn addresses_tokens_and_lessons_have_any_encoding_of_an_editor() {
         write(&here.join("token"), bytes);
         refuses(here, &to_lrs, 2, &["token: holds no token"]);
     }
-    let lesson = vitriol(here, &["lesson", "dilute", "--toml"]);
+    let lesson = VITRIOL.run(here, &["lesson", "dilute", "--toml"]);
     for bytes in encodings(text(&lesson.stdout)) {
         write(&here.join("own.toml"), bytes);
         assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{object, refuses, text, vitriol};
+use super::{VITRIOL, object, refuses, text};
 
 /// The indented block of a page that begins with that line.
 fn example(page: &str, first: &str) -> String {
@@ -49,7 +49,7 @@ fn a_new_lesson_checks_and_overwrites_nothing() {
         }
     }
     // For people it says what comes next, and begins with `dilute` in English.
-    let told = vitriol(here, &["lesson", "new", "own"]);
+    let told = VITRIOL.run(here, &["lesson", "new", "own"]);
     assert!(text(&told.stdout).contains("vitriol lesson own.toml"));
     let file = here.join("own.toml");
     let before = fs::read(&file).unwrap();
@@ -87,11 +87,11 @@ fn the_lesson_of_the_page_is_good() {
     assert_eq!(shown["points"], 100);
     assert_eq!(shown["languages"], serde_json::json!(["en"]));
     // Points that are no percentage are no fault, and are told.
-    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
     assert_eq!(text(&told.stderr), "");
     let more = lesson.replacen("points = 60", "points = 70", 1);
     fs::write(here.join("my-lesson.toml"), more).unwrap();
-    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
     assert!(told.status.success());
     let warned = text(&told.stderr);
     assert!(
@@ -104,7 +104,7 @@ fn the_lesson_of_the_page_is_good() {
         1,
     );
     fs::write(here.join("my-lesson.toml"), faulty).unwrap();
-    let told = vitriol(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
     let said = text(&told.stderr).trim_end();
     let said = said.strip_prefix("vitriol: ").unwrap();
     let first = said.lines().next().unwrap();
@@ -139,7 +139,7 @@ fn four_faults_are_four_lines() {
     }
     fs::write(&file, &lesson).unwrap();
     refuses(here, &["lesson", "own.toml"], 2, &[]);
-    let told = vitriol(here, &["lesson", "own.toml"]);
+    let told = VITRIOL.run(here, &["lesson", "own.toml"]);
     let said = text(&told.stderr).trim_start_matches("vitriol: ");
     let said: Vec<&str> = said.lines().collect();
     assert_eq!(said.len(), faults.len(), "{said:#?}");
@@ -152,7 +152,7 @@ fn four_faults_are_four_lines() {
         );
         assert!(told.contains(right), "{told}");
     }
-    let told = vitriol(here, &["lesson", "own.toml", "--language", "de"]);
+    let told = VITRIOL.run(here, &["lesson", "own.toml", "--language", "de"]);
     let german = text(&told.stderr).trim_start_matches("vitriol: ");
     assert_eq!(german.lines().count(), faults.len(), "{german}");
     assert!(

@@ -5,7 +5,7 @@ use std::fs;
 
 use vitriol_lesson::{Language, Texts};
 
-use super::{object, refuses, text, vitriol};
+use super::{VITRIOL, object, refuses, text};
 
 #[test]
 fn built_in_tracks_are_listed() {
@@ -40,7 +40,7 @@ fn lessons_are_listed_shown_and_checked() {
         assert_eq!(told["caps"].as_array().unwrap().len(), caps, "{told}");
     }
 
-    let own = vitriol(here, &["lesson", "dilute", "--toml"]);
+    let own = VITRIOL.run(here, &["lesson", "dilute", "--toml"]);
     let own = text(&own.stdout);
     let file = here.join("own.toml");
     fs::write(&file, own).unwrap();
@@ -125,7 +125,7 @@ fn scenes_state_their_scale() {
         assert_eq!(scene["title"], german.scene(name));
         assert_ne!(scene["title"], name);
     }
-    let told = vitriol(folder.path(), &["scenes", "--language", "zh"]);
+    let told = VITRIOL.run(folder.path(), &["scenes", "--language", "zh"]);
     let chinese = Texts::of(Language::Zh).unwrap();
     let head = format!("hot-acid: {}\n", chinese.scene("hot-acid"));
     assert!(text(&told.stdout).contains(&head), "{head}");

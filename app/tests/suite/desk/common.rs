@@ -6,16 +6,17 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use crate::desk::seen::{SOURCE, Seen, level};
-use crate::vr::common::{hearing, options, recording};
+use crate::vr::common::{hearing, left_to, options, recording};
 use glam::Vec3;
 use vitriol_gpu::Gpu;
 use vitriol_session::clock::MOST_STEPS;
 use vitriol_session::desk::{self, Desk, DeskSpec, FOV};
 use vitriol_session::session::{Options, Session, SessionOutcome};
-use vitriol_tests::screen::{Button, Screen, Window, key};
+use vitriol_tests::gpu::{self, Watched};
+use vitriol_tests::screen::{self, Button, Screen, Window, key};
 use vitriol_xr::track::Track;
 use vitriol_xr::{
-    Around, Headset, HeadsetError, Inset, Line, Pose, PoseFrame, Shown, Side, Targets, Turn, View,
+    Around, Headset, HeadsetError, Inset, Line, PoseFrame, Shown, Side, Targets, Turn, View,
 };
 
 /// Width and height of the window when it opens, pixels: few, so that a software driver is fast.
@@ -284,14 +285,10 @@ impl Used {
 }
 
 impl Headset for Used {
-    fn gpu(&self) -> &Gpu {
-        self.desk.gpu()
-    }
+    left_to!(desk);
+
     fn eyes(&self) -> u32 {
         self.desk.eyes()
-    }
-    fn extent(&self) -> [u32; 2] {
-        self.desk.extent()
     }
     fn wanted(&self) -> [u32; 2] {
         self.desk.wanted()
@@ -301,9 +298,6 @@ impl Headset for Used {
     }
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         self.desk.hidden_area()
-    }
-    fn name(&self) -> &str {
-        self.desk.name()
     }
     fn next(&mut self) -> Result<Turn, HeadsetError> {
         self.act()?;
@@ -329,9 +323,6 @@ impl Headset for Used {
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
         self.desk.locate_views()
     }
-    fn gaze(&self) -> Option<Pose> {
-        self.desk.gaze()
-    }
     fn around(&mut self, around: Around) {
         self.around = around.clone();
         self.desk.around(around);
@@ -345,21 +336,6 @@ impl Headset for Used {
             self.drawn = shown.extent;
         }
         self.desk.end(shown)
-    }
-    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
-        self.desk.vibrate(side, amplitude)
-    }
-    fn lose_device(&mut self) {
-        self.desk.lose_device();
-    }
-    fn rates(&self) -> &[f32] {
-        self.desk.rates()
-    }
-    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
-        self.desk.request_rate(rate)
-    }
-    fn request_exit(&mut self) -> Result<(), HeadsetError> {
-        self.desk.request_exit()
     }
 }
 
@@ -379,6 +355,22 @@ pub fn at_screen(folder: &Path) -> Options {
         pointer: true,
         ..options(folder)
     }
+}
+
+/// A session in the test of that name, whose options may be changed and whose script may need its device; with that device. `None` in the
+/// process that starts the screen's.
+pub fn sat(
+    name: &str,
+    by: By,
+    script: impl FnOnce(&Gpu, &mut Options) -> Script,
+) -> Option<(Watched, Sat)> {
+    let screen = screen::enter(name)?;
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let mut options = at_screen(folder.path());
+    let script = script(&gpu, &mut options);
+    let sat = session(&gpu, (screen, by), options, script);
+    Some((gpu, sat))
 }
 
 /// A session in a window, to the end of what its user does.

@@ -4,14 +4,13 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
 
-use crate::desk::common::{By, Script, at_screen, points, session, takes};
+use crate::desk::common::{By, Script, points, sat, takes};
 use crate::desk::pour::{NOT_YET, UPRIGHT, aims, carries, carries_back, poured_ml, was_poured};
 use crate::desk::seen::{SOURCE, TARGET};
 use vitriol_console::{Codec, Hub, Watcher};
 use vitriol_lesson::{Language, Texts};
 use vitriol_live::{Console, start, student};
 use vitriol_session::session::Options;
-use vitriol_tests::{gpu, screen};
 
 /// What the source holds at first, mL, and by how much a reading of a flask at rest may differ from it: 16 particles. Our choice; it also
 /// tells the first drops from a liquid at rest.
@@ -146,16 +145,12 @@ mod long {
     #[test]
     fn the_secondary_button_pours_twenty_millilitres() {
         let name = "desk::drag::long::the_secondary_button_pours_twenty_millilitres";
-        let Some(screen) = screen::enter(name) else {
-            return;
-        };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
-        let mut options = at_screen(folder.path());
-        let page = Page::of(&mut options);
-        let script = takes(points(reads(Script::default(), page.clone())));
-        let script = carries_back(pours(script, page));
-        let sat = session(&gpu, (screen, By::Mouse), options, script);
+        let sat = sat(name, By::Mouse, |_, options| {
+            let page = Page::of(options);
+            let script = takes(points(reads(Script::default(), page.clone())));
+            carries_back(pours(script, page))
+        });
+        let Some((gpu, sat)) = sat else { return };
         let told = poured_ml(&sat);
         assert!((told - WANTED).abs() <= BY, "{told} mL are told");
         // 1 g of water is 1 mL.

@@ -1,12 +1,11 @@
 //! What wheel, secondary button and keys do to a flask that the main button holds, and that it stands again once that is released.
 
-use crate::desk::common::{By, Script, User, at_screen, points, puts_down, session, takes};
+use crate::desk::common::{By, Script, User, points, puts_down, sat, takes};
 use crate::desk::seen::{SOURCE, Seen, level};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
 use glam::Vec3;
-use vitriol_tests::gpu;
-use vitriol_tests::screen::{self, Button, key};
+use vitriol_tests::screen::{Button, key};
 
 /// Notches of the wheel, and by how much each raises the flask, m (`NOTCH` of the desk's hands).
 const NOTCHES: i32 = 3;
@@ -89,14 +88,10 @@ fn raises_and_tilts(script: Script) -> Script {
 #[test]
 fn wheel_and_secondary_button_raise_and_tilt_what_is_held() {
     let name = "desk::hold::wheel_and_secondary_button_raise_and_tilt_what_is_held";
-    let Some(screen) = screen::enter(name) else {
+    let script = raises_and_tilts(takes(points(Script::default())));
+    let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| puts_down(script)) else {
         return;
     };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    let script = raises_and_tilts(takes(points(Script::default())));
-    let options = at_screen(folder.path());
-    let sat = session(&gpu, (screen, By::Mouse), options, puts_down(script));
     assert_eq!(sat.ended_in, None);
     // 150 g of water: none was spilt, as it was tilted by a few degrees.
     let measured = sat.outcome.world.measure().unwrap();
@@ -141,14 +136,10 @@ mod long {
     #[test]
     fn page_keys_raise_and_lower_what_is_held() {
         let name = "desk::hold::long::page_keys_raise_and_lower_what_is_held";
-        let Some(screen) = screen::enter(name) else {
+        let script = raises_and_lowers_by_keys(takes(points(Script::default())));
+        let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| puts_down(script)) else {
             return;
         };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
-        let script = raises_and_lowers_by_keys(takes(points(Script::default())));
-        let options = at_screen(folder.path());
-        let sat = session(&gpu, (screen, By::Mouse), options, puts_down(script));
         assert_eq!(sat.ended_in, None);
         let stands = sat.outcome.world.poses()[SOURCE];
         assert!((stands.orientation * Vec3::Y).y > 0.999, "{stands:?}");

@@ -1,6 +1,6 @@
 //! The panel: it fills the picture at a key, and its buttons are pressed with the mouse.
 
-use crate::desk::common::{By, Script, User, at_screen, session};
+use crate::desk::common::{By, Script, User, sat};
 use crate::desk::seen::{SOURCE, Seen, TARGET};
 use crate::vr::panel::place_at_desk;
 use glam::Vec3;
@@ -9,8 +9,7 @@ use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::panel::PANEL;
 use vitriol_sim::bodies::GRIP_REACH;
-use vitriol_tests::gpu;
-use vitriol_tests::screen::{self, Button, key as keys};
+use vitriol_tests::screen::{Button, key as keys};
 use vitriol_xr::Side;
 
 /// R lets the panel fill the picture.
@@ -109,46 +108,43 @@ fn asks_what_happened(script: Script, summary: [f32; 2]) -> Script {
 #[test]
 fn buttons_of_the_panel_are_pressed_with_the_mouse() {
     let name = "desk::panel::buttons_of_the_panel_are_pressed_with_the_mouse";
-    let Some(screen) = screen::enter(name) else {
-        return;
-    };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    let start = place_at_desk(&gpu, &Decision::Act(Action::Start(None)));
-    let summary = place_at_desk(&gpu, &Decision::Summary);
-    let script = looks_at_it(Script::default())
-        .then(
-            "points at the button of a new start",
-            move |user, seen, frame| {
+    let sat = sat(name, By::Mouse, |gpu, _| {
+        let start = place_at_desk(gpu, &Decision::Act(Action::Start(None)));
+        let summary = place_at_desk(gpu, &Decision::Summary);
+        let script = looks_at_it(Script::default())
+            .then(
+                "points at the button of a new start",
+                move |user, seen, frame| {
+                    if frame == 0 {
+                        user.point_at(seen, button(seen, start));
+                    }
+                    is_aimed_at(seen, button(seen, start)) && !pulls(seen)
+                },
+            )
+            // The scene begins anew only after a second; the window's title then says so.
+            .then("holds it", |user, seen, frame| {
                 if frame == 0 {
-                    user.point_at(seen, button(seen, start));
+                    user.button(Button::Main, true);
                 }
-                is_aimed_at(seen, button(seen, start)) && !pulls(seen)
-            },
-        )
-        // The scene begins anew only after a second; the window's title then says so.
-        .then("holds it", |user, seen, frame| {
-            if frame == 0 {
-                user.button(Button::Main, true);
-            }
-            let title = user.screen.title(user.window);
-            let begins = title.is_some_and(|it| it.contains("setting up"));
-            if begins {
-                assert!(pulls(seen));
-                user.button(Button::Main, false);
-            }
-            begins
-        })
-        .then("waits for the bench", |user, seen, _| {
-            let title = user.screen.title(user.window);
-            !pulls(seen) && title.is_some_and(|it| !it.contains("setting up"))
-        })
-        // What fades in is dark at first.
-        .then("waits for its light", |_, seen, frame| {
-            frame >= 20 && seen.lasts > 0.5
-        });
-    let script = asks_what_happened(script, summary);
-    let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
+                let title = user.screen.title(user.window);
+                let begins = title.is_some_and(|it| it.contains("setting up"));
+                if begins {
+                    assert!(pulls(seen));
+                    user.button(Button::Main, false);
+                }
+                begins
+            })
+            .then("waits for the bench", |user, seen, _| {
+                let title = user.screen.title(user.window);
+                !pulls(seen) && title.is_some_and(|it| !it.contains("setting up"))
+            })
+            // What fades in is dark at first.
+            .then("waits for its light", |_, seen, frame| {
+                frame >= 20 && seen.lasts > 0.5
+            });
+        asks_what_happened(script, summary)
+    });
+    let Some((_gpu, sat)) = sat else { return };
     assert_eq!(sat.ended_in, None);
     let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
     let starts = switches.filter(|switch| switch.key == key::START);
@@ -187,21 +183,18 @@ mod long {
     #[test]
     fn a_button_is_pressed_with_both_hands_full() {
         let name = "desk::panel::long::a_button_is_pressed_with_both_hands_full";
-        let Some(screen) = screen::enter(name) else {
-            return;
-        };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
-        let summary = place_at_desk(&gpu, &Decision::Summary);
-        let script =
-            keeps(Script::default(), SOURCE).then("changes the hand", |user, seen, frame| {
-                if frame == 0 {
-                    user.tap(keys::TAB);
-                }
-                seen.lasts > 0.3
-            });
-        let script = asks_what_happened(looks_at_it(keeps(script, TARGET)), summary);
-        let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
+        let sat = sat(name, By::Mouse, |gpu, _| {
+            let summary = place_at_desk(gpu, &Decision::Summary);
+            let script =
+                keeps(Script::default(), SOURCE).then("changes the hand", |user, seen, frame| {
+                    if frame == 0 {
+                        user.tap(keys::TAB);
+                    }
+                    seen.lasts > 0.3
+                });
+            asks_what_happened(looks_at_it(keeps(script, TARGET)), summary)
+        });
+        let Some((_gpu, sat)) = sat else { return };
         assert_eq!(sat.ended_in, None);
         let world = &sat.outcome.world;
         let holders = [SOURCE, TARGET].map(|flask| world.holder(flask));

@@ -1,6 +1,6 @@
 //! Pours by mouse, by keys, and one that ends when the window is closed.
 
-use crate::desk::common::{By, Sat, Script, User, at_screen, points, puts_down, session, takes};
+use crate::desk::common::{By, Sat, Script, User, points, puts_down, sat, takes};
 use crate::desk::seen::{SOURCE, Seen, TARGET, level};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
@@ -9,8 +9,7 @@ use glam::Vec3;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Language, Mode};
 use vitriol_session::session::Course;
-use vitriol_tests::gpu;
-use vitriol_tests::screen::{self, Screen, key};
+use vitriol_tests::screen::key;
 use vitriol_xr::Side;
 
 /// Q tilts to the left as the user sees it, and E to the right.
@@ -166,9 +165,7 @@ pub fn was_poured(gpu: &Gpu, sat: Sat) {
 }
 
 /// A pour by mouse that the window's end breaks off.
-fn closed_in_mid_pour(screen: Screen) {
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
+fn closed_in_mid_pour(name: &str) {
     let script = takes(points(Script::default()));
     let script = pours(script, 0.5).then("closes the window", |user, _, frame| {
         if frame == 0 {
@@ -176,7 +173,9 @@ fn closed_in_mid_pour(screen: Screen) {
         }
         false
     });
-    let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
+    let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| script) else {
+        return;
+    };
     assert_eq!(sat.ended_in, Some("closes the window"));
     assert_eq!(sat.screen.find("Vitriol"), None);
     assert!(sat.outcome.world.holder(SOURCE).is_some());
@@ -191,33 +190,24 @@ mod long {
     #[test]
     fn a_beginner_pours_with_the_mouse() {
         let name = "desk::pour::long::a_beginner_pours_with_the_mouse";
-        let Some(screen) = screen::enter(name) else {
-            return;
-        };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
         let script = pours(takes(points(Script::default())), 1.5);
-        let options = at_screen(folder.path());
-        let sat = session(&gpu, (screen, By::Mouse), options, brings_back(script));
-        was_poured(&gpu, sat);
+        if let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| brings_back(script)) {
+            was_poured(&gpu, sat);
+        }
     }
 
     #[test]
     fn keys_alone_pour_and_meet_a_lesson() {
         let name = "desk::pour::long::keys_alone_pour_and_meet_a_lesson";
-        let Some(screen) = screen::enter(name) else {
-            return;
-        };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
-        let mut options = at_screen(folder.path());
-        options.course = Some(Course {
-            lesson: lesson(),
-            mode: Mode::Free,
-            language: Language::En,
+        let sat = sat(name, By::Keys, |_, options| {
+            options.course = Some(Course {
+                lesson: lesson(),
+                mode: Mode::Free,
+                language: Language::En,
+            });
+            brings_back(pours(takes(walks(Script::default())), 1.5))
         });
-        let script = pours(takes(walks(Script::default())), 1.5);
-        let sat = session(&gpu, (screen, By::Keys), options, brings_back(script));
+        let Some((gpu, sat)) = sat else { return };
         let verdict = sat.outcome.verdict.clone().unwrap();
         // Lifted, poured and put down; the third step asks for less than a millilitre a second.
         let met = [0, 1, 3].map(|line| verdict.lines[line].met);
@@ -228,8 +218,6 @@ mod long {
     #[test]
     fn a_window_that_is_closed_in_mid_pour_leaves_a_whole_recording() {
         let name = "desk::pour::long::a_window_that_is_closed_in_mid_pour_leaves_a_whole_recording";
-        if let Some(screen) = screen::enter(name) {
-            closed_in_mid_pour(screen);
-        }
+        closed_in_mid_pour(name);
     }
 }

@@ -2,7 +2,7 @@
 //! other hand is used.
 
 use crate::desk::common::{
-    By, Sat, Script, at_screen, points, puts_down, session, session_at, spec, stands, takes,
+    By, Sat, Script, at_screen, points, puts_down, sat, session_at, spec, stands, takes,
 };
 use crate::desk::seen::{SOURCE, Seen, TARGET, level};
 use crate::vr::common::hash;
@@ -94,11 +94,6 @@ fn a_click_takes_and_a_click_puts_down() {
 #[test]
 fn another_window_puts_the_flask_down() {
     let name = "desk::taken::another_window_puts_the_flask_down";
-    let Some(screen) = screen::enter(name) else {
-        return;
-    };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let script = carries_aside(takes(points(Script::default())))
         .then("goes to another window", |user, seen, frame| {
             if frame == 0 {
@@ -113,8 +108,9 @@ fn another_window_puts_the_flask_down() {
             assert!(seen.holder(SOURCE).is_none());
             seen.lasts > 0.3
         });
-    let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
-    is_whole(&gpu, sat);
+    if let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| script) {
+        is_whole(&gpu, sat);
+    }
 }
 
 /// Size of the window while the flask is in the hand, pixels: of another aspect.
@@ -211,27 +207,19 @@ mod long {
     #[test]
     fn a_window_may_change_its_size_while_a_flask_is_dragged() {
         let name = "desk::taken::long::a_window_may_change_its_size_while_a_flask_is_dragged";
-        let Some(screen) = screen::enter(name) else {
-            return;
-        };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
         let script = resized_in_mid_drag(carries_aside(takes(points(Script::default()))));
-        let options = at_screen(folder.path());
-        let sat = session(&gpu, (screen, By::Mouse), options, puts_down(script));
-        is_whole(&gpu, sat);
+        if let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| puts_down(script)) {
+            is_whole(&gpu, sat);
+        }
     }
 
     #[test]
     fn the_other_hand_steadies_a_flask() {
         let name = "desk::taken::long::the_other_hand_steadies_a_flask";
-        let Some(screen) = screen::enter(name) else {
+        let script = steadies(takes(points(Script::default())));
+        let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| script) else {
             return;
         };
-        let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
-        let script = steadies(takes(points(Script::default())));
-        let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
         assert!(moved(&sat).length() < NEAR, "{}", moved(&sat));
         is_whole(&gpu, sat);
     }

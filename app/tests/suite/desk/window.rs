@@ -1,6 +1,6 @@
 //! The window: other sizes of it, what its view shows, and the keys that turn the view, fill the screen and end the session.
 
-use crate::desk::common::{By, Script, at_screen, points, session, session_at, spec};
+use crate::desk::common::{By, Script, at_screen, points, sat, session, session_at, spec};
 use crate::desk::seen::{SOURCE, Seen};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
@@ -57,13 +57,10 @@ fn resizes(script: Script, size: [u32; 2]) -> Script {
 #[test]
 fn a_window_of_any_size_is_filled_and_its_pointer_hits() {
     let name = "desk::window::a_window_of_any_size_is_filled_and_its_pointer_hits";
-    let Some(screen) = screen::enter(name) else {
+    let script = SIZES.into_iter().fold(points(Script::default()), resizes);
+    let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| script) else {
         return;
     };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    let script = SIZES.into_iter().fold(points(Script::default()), resizes);
-    let sat = session(&gpu, (screen, By::Mouse), at_screen(folder.path()), script);
     assert_eq!(sat.ended_in, None);
     // Nothing of it is in what was simulated.
     assert_eq!(replayed(&gpu, sat.track), hash(&sat.outcome));
@@ -75,11 +72,6 @@ const GOES_ON: u64 = 20;
 #[test]
 fn escape_ends_when_it_is_pressed_twice() {
     let name = "desk::window::escape_ends_when_it_is_pressed_twice";
-    let Some(screen) = screen::enter(name) else {
-        return;
-    };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let script = Script::default()
         .then("presses Escape", |user, _, frame| {
             if frame == 0 {
@@ -95,7 +87,9 @@ fn escape_ends_when_it_is_pressed_twice() {
             }
             false
         });
-    let sat = session(&gpu, (screen, By::Keys), at_screen(folder.path()), script);
+    let Some((_gpu, sat)) = sat(name, By::Keys, |_, _| script) else {
+        return;
+    };
     assert_eq!(sat.ended_in, Some("presses it twice"));
     assert!(sat.outcome.frames > GOES_ON, "{}", sat.outcome.frames);
     assert_eq!(sat.screen.find("Vitriol"), None);
@@ -139,11 +133,6 @@ fn eye(seen: &Seen<'_>) -> Vec3 {
 #[test]
 fn arrows_turn_the_view_with_control_and_move_no_hand() {
     let name = "desk::window::arrows_turn_the_view_with_control_and_move_no_hand";
-    let Some(screen) = screen::enter(name) else {
-        return;
-    };
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let script = Script::default()
         .then("waits", |user, seen, frame| {
             user.noted = Side::BOTH.map(|side| seen.palm(side));
@@ -171,7 +160,9 @@ fn arrows_turn_the_view_with_control_and_move_no_hand() {
             }
             eye(seen).x.abs() < 0.1 * TURNS
         });
-    let sat = session(&gpu, (screen, By::Keys), at_screen(folder.path()), script);
+    let Some((_gpu, sat)) = sat(name, By::Keys, |_, _| script) else {
+        return;
+    };
     assert_eq!(sat.ended_in, None);
 }
 

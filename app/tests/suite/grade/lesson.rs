@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use vitriol::cli::{Cli, Command};
 use vitriol::command::grade::{Status, Verdict};
 use vitriol::command::replay;
 use vitriol_lesson::procedure::{Kind, Progress, Why};
@@ -12,7 +11,8 @@ use vitriol_lesson::{Lesson, Mode};
 use vitriol_run::{Failure, Format, Setup};
 use vitriol_xr::track::Track;
 
-use super::{DEVICE, Made, Toy, VITRIOL, events, graded, line, nobody, put, read, recording};
+use super::{DEVICE, Made, VITRIOL, events, finding, graded, line, nobody, put, read, recording};
+use crate::replay::toy::asked;
 
 /// Taken, poured too fast and then not, and put down a little late; half a millilitre too much was spilt.
 fn progress(put_down_s: Option<f64>) -> Vec<Progress> {
@@ -285,7 +285,7 @@ fn a_simulation_confirms_or_refutes_the_lesson() {
     for (name, said, found, driver, verdict, part) in cases {
         let file = put(here, &format!("{name}.mcap"), &taught(said));
         let toy = |_: &Setup<'_>| -> Made {
-            let mut toy = Toy::new(events(1.5), driver);
+            let mut toy = finding(events(1.5), driver);
             toy.progress.clone_from(found);
             Ok(Box::new(toy))
         };
@@ -310,12 +310,9 @@ fn replayed(track: &Path, found: &[Progress], more: &[&str]) -> Result<serde_jso
     let file = track.to_str().unwrap();
     let to = out.path().to_str().unwrap();
     let start = ["vitriol", "replay", file, "--no-video", "--out", to];
-    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(start.iter().chain(more)).command
-    else {
-        panic!("replay is parsed as another command");
-    };
+    let args = asked(start.iter().chain(more));
     replay::run(&args, Format::Json, |_: &Setup<'_>| -> Made {
-        let mut toy = Toy::new(events(1.5), DEVICE[1]);
+        let mut toy = finding(events(1.5), DEVICE[1]);
         toy.progress = found.to_vec();
         Ok(Box::new(toy))
     })?;

@@ -5,19 +5,14 @@ use std::path::{Path, PathBuf};
 
 use vitriol::cli::{Cli, Command};
 use vitriol::command::grade::{Class, Line, grade};
-use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Cause, Content, Ending, Event, Incident, Pour, What};
-use vitriol_render::PassPicture;
-use vitriol_run::{
-    Counters, DeviceStatement, Experiment, Failure, Format, Heard, Judging, MassByPlace, Outcome,
-    Sample, Setup, Taken,
-};
+use vitriol_run::{Experiment, Failure, Format, Setup};
 use vitriol_sim::scene::Scene;
-use vitriol_xr::PoseFrame;
 use vitriol_xr::track::{Existing, Track, save};
 
+use crate::replay::toy::{DEVICE, Toy};
+
 pub(super) const SCENE: &str = "acid-into-water";
-pub(super) const DEVICE: [&str; 2] = ["Toy & Sons", "none"];
 
 /// One attempt: 20 mL of acid poured into water, at 4 mL/s, and `spilt_ml` of it spilt.
 pub(super) fn events(spilt_ml: f64) -> Vec<Event> {
@@ -108,87 +103,13 @@ pub(super) fn class(folder: &Path, students: u32) {
     }
 }
 
-/// Finds what it is told.
-pub(super) struct Toy {
-    pub(super) events: Vec<Event>,
-    pub(super) driver: &'static str,
-    /// What it says of a lesson, where it is asked to judge one.
-    pub(super) progress: Vec<Progress>,
-    pub(super) judges: bool,
-}
-
-impl Toy {
-    pub(super) fn new(events: Vec<Event>, driver: &'static str) -> Self {
-        Self {
-            events,
-            driver,
-            progress: Vec::new(),
-            judges: false,
-        }
-    }
-}
-
-impl Experiment for Toy {
-    fn step(&mut self, _: &PoseFrame) -> Result<Taken, Failure> {
-        Ok(Taken {
-            frame_time: 1.0 / 90.0,
-            anew: false,
-        })
-    }
-
-    fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
-        Ok(Sample {
-            t_s: t,
-            density_error_mean: 0.0,
-            density_error_p99: 0.0,
-            kinetic_energy_j: 0.0,
-            mass_kg: MassByPlace::default(),
-            neighbour_rebuilds: 0,
-            left_kg: BTreeMap::new(),
-            above_rim_kg: BTreeMap::new(),
-            surface_m2: BTreeMap::new(),
-            highest_drop_m: None,
-            heat: None,
-        })
-    }
-
-    fn picture(&mut self, _: usize) -> Result<&[u8], Failure> {
-        panic!("nobody looks at a track that is graded")
-    }
-
-    fn heard(&mut self) -> Result<Heard, Failure> {
-        Ok(Heard::default())
-    }
-
-    fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
-        Ok(Vec::new())
-    }
-
-    fn judge(&mut self, _: Judging) {
-        self.judges = true;
-    }
-
-    fn outcome(&mut self) -> Result<Outcome, Failure> {
-        Ok(Outcome {
-            events: self.events.clone(),
-            progress: match self.judges {
-                true => self.progress.clone(),
-                false => Vec::new(),
-            },
-            instructions: Vec::new(),
-            scene: None,
-            effort: [8, 4],
-            fluid_particles: 1,
-            lost_particles: 0,
-            nan_particles: 0,
-            state_hash: 0,
-            device: DeviceStatement {
-                name: DEVICE[0].into(),
-                driver: self.driver.into(),
-                api: "1.3.0".into(),
-            },
-            counters: Counters::default(),
-        })
+/// A simulation that finds what it is told, by such a driver; of a track that is graded nobody sees a picture.
+pub(super) fn finding(events: Vec<Event>, driver: &'static str) -> Toy {
+    Toy {
+        finds: Box::new(move |_| events.clone()),
+        driver,
+        unseen: true,
+        ..Toy::new(u64::MAX)
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
+use vitriol_tests::program::Kept;
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::Pose;
 
@@ -91,7 +92,7 @@ pub const WINDOW: usize = 200;
 
 /// `vitriol vr` at work.
 pub struct Program {
-    child: Child,
+    child: Kept,
     /// Its log's lines.
     log: Receiver<String>,
     /// Its frames as far as its log was read.
@@ -143,7 +144,7 @@ impl Program {
             layer
         });
         Self {
-            child,
+            child: Kept(child),
             log,
             seen: Vec::new(),
             held: Vec::new(),
@@ -240,12 +241,5 @@ impl Program {
         let rest = self.log.try_iter();
         self.seen.extend(rest.filter_map(|line| Seen::of(&line)));
         (report, std::mem::take(&mut self.seen))
-    }
-}
-
-impl Drop for Program {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }

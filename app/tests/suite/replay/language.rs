@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::{InstructorStatement, Report};
 use vitriol_lesson::procedure::{Verdict, VerdictLine, Why};
@@ -10,14 +9,14 @@ use vitriol_lesson::{Language, Mode, Rubric, Texts};
 use vitriol_run::{Experiment, Format, Setup};
 
 use super::told;
-use super::toy::{Toy, replay, report_of};
+use super::toy::{Toy, asked, replay, report_of};
 
 /// Title, scenes, flasks and sentences are in the language that is asked for, and the command line asks for it again.
 #[test]
 fn a_report_speaks_the_language_that_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
-    let asked = ["--seconds", "0.1", "--no-video", "--language", "de"];
-    replay(folder.path(), &asked, u64::MAX).unwrap();
+    let german = ["--seconds", "0.1", "--no-video", "--language", "de"];
+    replay(folder.path(), &german, u64::MAX).unwrap();
     let report = report_of(folder.path());
     assert!(report.command.contains(" --language de"));
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
@@ -37,9 +36,6 @@ fn full() -> Report {
     let out = folder.path().join("out");
     let arguments = "vitriol replay two-flasks --scene water-into-acid --seconds 1 --out";
     let arguments = arguments.split(' ').chain([out.to_str().unwrap()]);
-    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
-        panic!("replay is parsed as another command");
-    };
     let hot = |_: &Setup<'_>| {
         let toy = Toy {
             hot: true,
@@ -47,7 +43,7 @@ fn full() -> Report {
         };
         Ok(Box::new(toy) as Box<dyn Experiment>)
     };
-    run(&args, Format::Json, hot).unwrap();
+    run(&asked(arguments), Format::Json, hot).unwrap();
     let (mut report, _) = told(report_of(&out));
     let line = |rule, met, why: Option<Why>| VerdictLine {
         id: "own".into(),

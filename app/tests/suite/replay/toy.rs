@@ -1,13 +1,15 @@
 //! The experiment whose answers are known, and a replay of it.
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-use vitriol::cli::{Cli, Command};
+use vitriol::cli::{Cli, Command, ReplayArgs};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
+use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Cause, Ending, Event, Incident, What};
 use vitriol_render::PassPicture;
 use vitriol_run::{
@@ -18,20 +20,26 @@ use vitriol_xr::PoseFrame;
 
 /// Pours 200 g from one flask into another along a smooth curve; every number
 /// is a formula of the step.
-pub(super) struct Toy {
-    pub(super) steps: u64,
+pub(crate) struct Toy {
+    pub(crate) steps: u64,
     /// The step that fails; 0 for the end, after the film.
-    pub(super) fails_at: u64,
+    pub(crate) fails_at: u64,
     /// Whether its scene models heat.
-    pub(super) hot: bool,
-    /// Whether something is found.
-    pub(super) finds: bool,
+    pub(crate) hot: bool,
+    /// What is found in so many seconds.
+    pub(crate) finds: Box<dyn Fn(f64) -> Vec<Event>>,
+    /// What it says of a lesson, where it is asked to judge one.
+    pub(crate) progress: Vec<Progress>,
+    pub(crate) judges: bool,
+    /// Whether nobody may look at it.
+    pub(crate) unseen: bool,
+    pub(crate) driver: &'static str,
     /// Steps in which nothing is worth showing.
-    pub(super) idle: Range<u64>,
+    pub(crate) idle: Range<u64>,
     /// The step that is most worth a poster.
-    pub(super) most: u64,
-    pub(super) instructions: Vec<(f64, Action)>,
-    pub(super) picture: Vec<u8>,
+    pub(crate) most: u64,
+    pub(crate) instructions: Vec<(f64, Action)>,
+    pub(crate) picture: Vec<u8>,
 }
 
 /// Boils from second 2 on; half of what it loses is steam.
@@ -80,13 +88,20 @@ pub(super) const FRAME_TIME: f64 = 0.011111111111111;
 /// A name that breaks a page which does not escape it.
 pub(super) const FLASK: &str = "beaker <script>alert(1)</script>";
 
+/// The name of its device, and its driver.
+pub(crate) const DEVICE: [&str; 2] = ["Toy & Sons", "none"];
+
 impl Toy {
-    pub(super) fn new(fails_at: u64) -> Self {
+    pub(crate) fn new(fails_at: u64) -> Self {
         Self {
             steps: 0,
             fails_at,
             hot: false,
-            finds: false,
+            finds: Box::new(|_| Vec::new()),
+            progress: Vec::new(),
+            judges: false,
+            unseen: false,
+            driver: DEVICE[1],
             idle: 0..0,
             most: 0,
             instructions: Vec::new(),
@@ -136,6 +151,7 @@ impl Experiment for Toy {
     }
 
     fn picture(&mut self, _film: usize) -> Result<&[u8], Failure> {
+        assert!(!self.unseen, "nobody looks at it");
         let shade = (self.steps % 256) as u8;
         self.picture = [shade, 90, 160, 255].repeat(960 * 540);
         Ok(&self.picture)
@@ -156,18 +172,20 @@ impl Experiment for Toy {
         Ok(Vec::new())
     }
 
-    fn judge(&mut self, _: Judging) {}
+    fn judge(&mut self, _: Judging) {
+        self.judges = true;
+    }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {
         if self.fails_at == 0 {
             return Err("the device was lost").other();
         }
         Ok(Outcome {
-            events: match self.finds {
-                true => events(self.steps as f64 * FRAME_TIME),
+            events: (self.finds)(self.steps as f64 * FRAME_TIME),
+            progress: match self.judges {
+                true => self.progress.clone(),
                 false => Vec::new(),
             },
-            progress: Vec::new(),
             scene: None,
             effort: [8, 4],
             fluid_particles: 13_894,
@@ -175,8 +193,8 @@ impl Experiment for Toy {
             nan_particles: 0,
             state_hash: 0xfeed_f00d,
             device: DeviceStatement {
-                name: "Toy & Sons".into(),
-                driver: "none".into(),
+                name: DEVICE[0].into(),
+                driver: self.driver.into(),
                 api: "1.3.0".into(),
             },
             instructions: self.instructions.clone(),
@@ -225,6 +243,16 @@ pub(super) fn events(t: f64) -> Vec<Event> {
     ]
 }
 
+/// What such a line asks of `vitriol replay`.
+pub(crate) fn asked(
+    line: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+) -> Box<ReplayArgs> {
+    match <Cli as clap::Parser>::parse_from(line).command {
+        Command::Replay(args) => args,
+        _ => panic!("replay is parsed as another command"),
+    }
+}
+
 /// What `vitriol replay two-flasks --out OUT …` does, with the toy.
 pub(super) fn replay(out: &Path, more: &[&str], fails_at: u64) -> Result<(), Failure> {
     replay_with(out, more, || Toy::new(fails_at))
@@ -242,10 +270,7 @@ pub(super) fn replay_of(
 ) -> Result<(), Failure> {
     let out = out.to_str().unwrap();
     let arguments = ["vitriol", "replay", track, "--out", out];
-    let arguments = arguments.iter().chain(more);
-    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
-        panic!("replay is parsed as another command");
-    };
+    let args = asked(arguments.iter().chain(more));
     run(&args, Format::Json, |setup| {
         assert_eq!(
             setup.scene.name, "two-flasks",

@@ -23,8 +23,7 @@ use vitriol_sound::Device;
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::track::{Keyframes, Track};
 use vitriol_xr::{
-    Fov, Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Pose, Shown, Side, Targets,
-    Turn, View,
+    Fov, Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Pose, Shown, Targets, Turn, View,
 };
 
 /// Keyframes that pour from one flask into the other, see the track's own text.
@@ -141,6 +140,44 @@ impl Trouble for StartsOver {
     }
 }
 
+/// What a headset around another, in the field of that name, leaves to that one.
+macro_rules! left_to {
+    ($inner:ident) => {
+        fn gpu(&self) -> &vitriol_gpu::Gpu {
+            self.$inner.gpu()
+        }
+        fn extent(&self) -> [u32; 2] {
+            self.$inner.extent()
+        }
+        fn name(&self) -> &str {
+            self.$inner.name()
+        }
+        fn gaze(&self) -> Option<vitriol_xr::Pose> {
+            self.$inner.gaze()
+        }
+        fn vibrate(
+            &mut self,
+            side: vitriol_xr::Side,
+            amplitude: f32,
+        ) -> Result<(), vitriol_xr::HeadsetError> {
+            self.$inner.vibrate(side, amplitude)
+        }
+        fn lose_device(&mut self) {
+            self.$inner.lose_device();
+        }
+        fn rates(&self) -> &[f32] {
+            self.$inner.rates()
+        }
+        fn request_rate(&mut self, rate: f32) -> Result<(), vitriol_xr::HeadsetError> {
+            self.$inner.request_rate(rate)
+        }
+        fn request_exit(&mut self) -> Result<(), vitriol_xr::HeadsetError> {
+            self.$inner.request_exit()
+        }
+    };
+}
+pub(crate) use left_to;
+
 /// A stand-in with trouble, taken off after some frames.
 pub struct Worn<T> {
     pub inner: StandIn,
@@ -196,20 +233,13 @@ impl<T: Trouble> Worn<T> {
 }
 
 impl<T: Trouble> Headset for Worn<T> {
-    fn gpu(&self) -> &Gpu {
-        self.inner.gpu()
-    }
-    fn extent(&self) -> [u32; 2] {
-        self.inner.extent()
-    }
+    left_to!(inner);
+
     fn inset(&self) -> Option<Inset> {
         self.inset.as_ref().map(|(inset, _)| *inset)
     }
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         [self.hidden.clone(), self.hidden.clone()]
-    }
-    fn name(&self) -> &str {
-        self.inner.name()
     }
     fn next(&mut self) -> Result<Turn, HeadsetError> {
         if let Some(turn) = self.trouble.turn(&mut self.inner, self.after) {
@@ -260,30 +290,12 @@ impl<T: Trouble> Headset for Worn<T> {
         }
         Ok(views)
     }
-    fn gaze(&self) -> Option<Pose> {
-        self.inner.gaze()
-    }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
         self.felt.push(self.inner.felt);
         let ended = self.inner.end(shown);
         self.trouble.ends(self.after - 1);
         ended
-    }
-    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
-        self.inner.vibrate(side, amplitude)
-    }
-    fn lose_device(&mut self) {
-        self.inner.lose_device();
-    }
-    fn rates(&self) -> &[f32] {
-        self.inner.rates()
-    }
-    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
-        self.inner.request_rate(rate)
-    }
-    fn request_exit(&mut self) -> Result<(), HeadsetError> {
-        self.inner.request_exit()
     }
 }
 
@@ -344,6 +356,14 @@ pub fn options_where(folder: &Path, change: impl Fn(String) -> String) -> Option
         language: Language::En,
         student: None,
     }
+}
+
+/// The same in the scene of that file.
+pub fn in_scene(folder: &Path, file: &Path) -> Options {
+    let mut options = options(folder);
+    let plan = &mut options.plan;
+    plan.scene = plan.scenes.open(file.to_str().unwrap()).unwrap();
+    options
 }
 
 /// A session to its end, and its recording.

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use vitriol_console::Hub;
@@ -16,7 +16,7 @@ use vitriol_tests::devtools::Tab;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose};
 
-use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, session_with};
+use crate::vr::common::{Trouble, Worn, hash, in_scene, nobody, options, pour, session_with};
 use crate::vr::loss::{instructed, replayed};
 
 /// What an instructor does in a frame, and what the page shows once it is done; both are JavaScript.
@@ -111,7 +111,7 @@ impl Trouble for Instructed {
 }
 
 /// A hub on this computer, a browser in it, and a session's end of it.
-fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options)> {
+fn directed(mut options: Options, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options)> {
     let hub = start(
         SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0),
         false,
@@ -124,7 +124,6 @@ fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options
     let mut tab = Tab::new()?;
     tab.go(&hub.invite().unwrap().address);
     tab.until("!document.getElementById('student').hidden");
-    let mut options = options(folder);
     options.console = Some(Console {
         port,
         student: told,
@@ -139,7 +138,7 @@ fn directed(folder: &Path, deeds: Vec<Deed>) -> Option<(Hub, Instructed, Options
 }
 
 /// A pot of soup that boils from the start, with few particles.
-fn soup(folder: &Path) -> String {
+fn soup(folder: &Path) -> PathBuf {
     let text = include_str!("../../../../sim/scenes/tomato-soup.toml");
     let small = text
         .replace("spacing = 0.05 ", "spacing = 0.1 ")
@@ -147,7 +146,7 @@ fn soup(folder: &Path) -> String {
     assert_ne!(small, text);
     let file = folder.join("soup.toml");
     std::fs::write(&file, small).unwrap();
-    file.to_str().unwrap().to_owned()
+    file
 }
 
 const BYE: &str = "That is all.";
@@ -194,11 +193,10 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         send(66, "message", BYE, &reads("shown", BYE)),
         click(68, "end-now", &reads("said", "The session is over.")),
     ];
-    let soup = soup(folder.path());
-    let Some((_hub, instructor, mut options)) = directed(folder.path(), deeds) else {
+    let soup = in_scene(folder.path(), &soup(folder.path()));
+    let Some((_hub, instructor, options)) = directed(soup, deeds) else {
         return;
     };
-    options.plan.scene = options.plan.scenes.open(&soup).unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 100, instructor);
     let (outcome, track) = session_with(&mut headset, options, nobody());
     // Both hands have felt that something was said; they hold nothing.
@@ -256,7 +254,7 @@ mod long {
             click(72, "lose-not", &format!("!{}.open", at("lose"))),
             click(76, "pause", &pressed("pause", false)),
         ];
-        let Some((_hub, instructor, options)) = directed(folder.path(), deeds) else {
+        let Some((_hub, instructor, options)) = directed(options(folder.path()), deeds) else {
             return;
         };
         assert_eq!(options.plan.preset, Preset::Balanced);

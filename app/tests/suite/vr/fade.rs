@@ -2,7 +2,7 @@
 
 use std::sync::mpsc::{Receiver, channel};
 
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::Gpu;
 use vitriol_session::decision::Decision;
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
@@ -10,6 +10,7 @@ use vitriol_xr::track::Track;
 
 use crate::vr::common::{StartsOver, Trouble, Worn, hash, nobody, pour, session};
 use crate::vr::loss::replayed;
+use crate::vr::seen::read;
 
 /// What a session ended with: mean level of the last frame's picture, 0 to 255, whether the panel had its own layer then, the recording
 /// and the state's hash.
@@ -24,14 +25,11 @@ fn light<T: Trouble>(gpu: &Gpu, frames: u64, trouble: T, decisions: Receiver<Dec
     let folder = tempfile::tempdir().unwrap();
     let mut headset = Worn::new(gpu, pour().sample_track(), 90.0, frames, trouble);
     let (outcome, track) = session(&mut headset, folder.path(), decisions);
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    let colour = rec.read_back_image(&headset.inner.targets.colour).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let colour: Vec<u8> = colour.get().unwrap();
-    let levels = colour.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
+    let colour = read(gpu, &headset.inner.targets.colour);
+    let levels = colour.iter().flat_map(|pixel| &pixel[..3]);
     let sum: f64 = levels.map(|level| f64::from(*level)).sum();
     Ended {
-        level: sum / (0.75 * colour.len() as f64),
+        level: sum / (3.0 * colour.len() as f64),
         layer: headset.shown.last().unwrap().panel.is_some(),
         hash: hash(&outcome),
         track,

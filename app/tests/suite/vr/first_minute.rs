@@ -3,11 +3,10 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::rc::Rc;
 
 use glam::Vec3;
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::Gpu;
 use vitriol_session::session::SessionOutcome;
 use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
@@ -16,6 +15,7 @@ use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose, Turn, View};
 
 use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, session_with};
 use crate::vr::loss::replayed;
+use crate::vr::seen::{keep_rgb, read};
 
 const EXTENT: [u32; 2] = [400, 425];
 /// Frames a second; the track's 9.6 s and half a second in which it is seen that the flask stands.
@@ -38,13 +38,8 @@ impl Trouble for Looks {
             return None;
         }
         let gpu = vitriol_xr::Headset::gpu(headset).clone();
-        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        let bytes = rec.read_back_image(&headset.targets.colour).unwrap();
-        gpu.submit(rec).unwrap().wait().unwrap();
-        let bytes: Vec<u8> = bytes.get().unwrap();
-        let pixels = bytes.chunks_exact(4).map(|four| four.try_into().unwrap());
-        let left = (EXTENT[0] * EXTENT[1]) as usize;
-        let picture = pixels.take(left).collect();
+        let mut picture = read(&gpu, &headset.targets.colour);
+        picture.truncate((EXTENT[0] * EXTENT[1]) as usize);
         self.pictures.borrow_mut().insert(after, picture);
         None
     }
@@ -147,18 +142,6 @@ fn projected(view: &View, place: Vec3) -> ([f32; 2], f32) {
     ([x, y], 0.12 * focal / -at.z)
 }
 
-fn keep(name: &str, pixels: &[[u8; 4]]) {
-    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-        let rgb: Vec<u8> = pixels
-            .iter()
-            .flat_map(|[r, g, b, _]| [*r, *g, *b])
-            .collect();
-        let file = Path::new(&keep).join(format!("{name}.png"));
-        let [width, height] = EXTENT;
-        image::save_buffer(file, &rgb, width, height, image::ColorType::Rgb8).unwrap();
-    }
-}
-
 /// The hand that is there, and whether it has a controller: without one there is no trigger, which is amber.
 #[test]
 fn a_bare_hand_is_shown_no_trigger() {
@@ -166,7 +149,7 @@ fn a_bare_hand_is_shown_no_trigger() {
     let at = [4];
     let [with, without] = [true, false].map(|hints| run(&gpu, hints, 4, &at, true));
     let bare = sign(&with.pictures[&4], &without.pictures[&4]);
-    keep("first-minute-bare", &with.pictures[&4]);
+    keep_rgb("first-minute-bare", EXTENT, &with.pictures[&4]);
     let place = FLASK + (0.095 + 0.02 + 0.06) * Vec3::Y;
     let (expected, width) = projected(&with.views[3], place);
     let off = [0, 1].map(|axis| (bare.middle[axis] - expected[axis]).abs() / width);
@@ -206,7 +189,7 @@ mod long {
         let with = run(&gpu, true, FRAMES, &at, false);
         let without = run(&gpu, false, FRAMES, &at, false);
         for (n, picture) in &with.pictures {
-            keep(&format!("first-minute-{n:03}"), picture);
+            keep_rgb(&format!("first-minute-{n:03}"), EXTENT, picture);
         }
         let mut found = Vec::new();
         for (name, time, place) in steps {

@@ -1,6 +1,6 @@
 //! A session whose headset has a second pair of pictures over a part of the first (quad views).
 
-use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
+use vitriol_gpu::{Gpu, Image, ImageDesc, vk};
 use vitriol_session::foveating::Foveating;
 use vitriol_session::session::SessionOutcome;
 use vitriol_tests::gpu;
@@ -38,12 +38,9 @@ struct Pictures {
 
 impl Pictures {
     fn of(gpu: &Gpu, colour: &Image, depth: &Image) -> Self {
-        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        let depth = rec.read_back_image(depth).unwrap();
-        gpu.submit(rec).unwrap().wait().unwrap();
         Self {
             colour: read(gpu, colour),
-            depth: depth.get().unwrap(),
+            depth: gpu::read_back(gpu, depth).get().unwrap(),
         }
     }
 

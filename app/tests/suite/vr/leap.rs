@@ -46,7 +46,7 @@ struct Leaping {
 }
 
 /// The stage elsewhere, with all that is in it.
-fn move_all(poses: &mut PoseFrame, there: &Pose) {
+pub fn move_all(poses: &mut PoseFrame, there: &Pose) {
     poses.stage_from_view = there.compose(&poses.stage_from_view);
     for hand in &mut poses.hands {
         hand.stage_from_grip = there.compose(&hand.stage_from_grip);

@@ -1,18 +1,19 @@
 //! The mirror window, on a screen that only a program sees.
 
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, scene};
 use crate::vr::loss::replayed;
-use vitriol_gpu::QueueKind;
+use crate::vr::seen::read;
 use vitriol_run::track::key;
 use vitriol_session::mirror;
 use vitriol_session::session::Session;
 use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
+use vitriol_tests::program::Kept;
 use vitriol_tests::screen::{self, Screen, Window};
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::track::{Track, load};
@@ -81,11 +82,7 @@ struct Onlooker {
 impl Onlooker {
     /// Whether the window shows what the headset was given.
     fn sees(&self, headset: &StandIn, window: Window) -> Result<(), String> {
-        let gpu = headset.gpu();
-        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        let eyes = rec.read_back_image(&headset.targets.colour).unwrap();
-        gpu.submit(rec).unwrap().wait().unwrap();
-        let eyes = eyes.get::<[u8; 4]>().unwrap();
+        let eyes = read(headset.gpu(), &headset.targets.colour);
         let left = &eyes[..EYE[0] * EYE[1]];
         let (extent, pixels) = self.screen.picture(window);
         let width = extent[0] as usize;
@@ -221,8 +218,8 @@ fn the_window_shows_what_the_left_eye_sees() {
     assert_eq!(replayed(&gpu, track), hash(&outcome));
 }
 
-/// `vitriol vr` on a stand-in, ended with the test.
-struct Program(Child);
+/// `vitriol vr` on a stand-in.
+struct Program(Kept);
 
 impl Program {
     fn start(scene: &Path, more: &[&str]) -> Self {
@@ -242,7 +239,7 @@ impl Program {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn();
-        Self(child.unwrap())
+        Self(Kept(child.unwrap()))
     }
 
     fn runs(&mut self) -> bool {
@@ -263,13 +260,6 @@ impl Program {
         let status = self.0.wait().unwrap();
         assert!(status.success(), "{status}: {log}");
         (serde_json::from_str(&text).unwrap(), log)
-    }
-}
-
-impl Drop for Program {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
     }
 }
 

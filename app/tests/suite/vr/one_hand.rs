@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::vr::common::{Trouble, Worn, heard, nobody, session};
-use crate::vr::panel::{place_of, press_from};
+use crate::vr::panel::{on_panel, place_of, press_from};
 use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_run::Action;
@@ -11,7 +11,7 @@ use vitriol_run::choices::{self, CHOICES};
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::handle::middles;
-use vitriol_session::panel::{PANEL, Panel, WIDTH, scene_from_panel};
+use vitriol_session::panel::Panel;
 use vitriol_session::workbench::TAKEN_UP;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::GRIP_REACH;
@@ -72,16 +72,6 @@ impl Alone {
             }
         }
     }
-}
-
-/// A place of the panel, given in pixels.
-fn on_panel([x, y]: [f32; 2]) -> Vec3 {
-    let pixel = WIDTH / PANEL[0] as f32;
-    scene_from_panel().transform_point(Vec3::new(
-        (x - 0.5 * PANEL[0] as f32) * pixel,
-        (0.5 * PANEL[1] as f32 - y) * pixel,
-        0.0,
-    ))
 }
 
 impl Trouble for Alone {

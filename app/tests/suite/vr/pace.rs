@@ -2,11 +2,13 @@
 
 use std::sync::mpsc::channel;
 
-use crate::vr::common::{Trouble, Worn, hash, heard, nobody, options, pour, scene, session_with};
+use crate::vr::common::{
+    Trouble, Worn, hash, heard, in_scene, nobody, options, pour, scene, session_with,
+};
 use crate::vr::inset::inset_of;
 use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
-use vitriol_gpu::{Gpu, QueueKind, Timestamps};
+use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_run::Action;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
@@ -137,10 +139,8 @@ fn the_filter_gives_way() {
         awaits: Some(30),
     };
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 60, trouble);
-    let mut options = options(folder.path());
+    let mut options = in_scene(folder.path(), &file);
     options.governed = true;
-    let plan = &mut options.plan;
-    plan.scene = plan.scenes.open(file.to_str().unwrap()).unwrap();
     let (outcome, track) = session_with(&mut headset, options, nobody());
     assert_eq!(outcome.bench.filter(), PictureFilter::NarrowRange);
     assert_eq!(values(&switches(&track), key::FILTER), ["narrow-range"]);
@@ -228,11 +228,8 @@ mod long {
         // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
         // goes 5 pixels far and not 9, and 3 in the second row and not 7. Of two by two pixels all are hidden then.
         assert_eq!(headset.shown.last().unwrap().extent, [58, 38]);
-        let depth = headset.inner.targets.depth.clone().unwrap();
-        let mut rec = second.recorder(QueueKind::Main).unwrap();
-        let depth = rec.read_back_image(&depth).unwrap();
-        second.submit(rec).unwrap().wait().unwrap();
-        let depth = depth.get::<f32>().unwrap();
+        let depth = headset.inner.targets.depth.as_ref().unwrap();
+        let depth: Vec<f32> = gpu::read_back(&second, depth).get().unwrap();
         assert_eq!(depth[0], 1.0);
         assert!(depth[2] < 1.0);
     }

@@ -3,12 +3,14 @@
 use std::sync::mpsc::channel;
 
 use crate::vr::common::{Trouble, Worn, heard, pour, session};
+use crate::vr::seen::keep;
 use glam::{Quat, Vec3};
+use image::ColorType;
 use vitriol_console::MESSAGE;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson::Tone;
 use vitriol_run::Action;
-use vitriol_run::choices::on_panel;
+use vitriol_run::choices;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::info::{Effort, FlaskLine, Happened, Info, Lying, Told};
@@ -69,6 +71,16 @@ fn picture(gpu: &Gpu, panel: &mut Panel) -> Vec<u8> {
     read.get().unwrap()
 }
 
+/// A place of the panel, given in pixels.
+pub fn on_panel([x, y]: [f32; 2]) -> Vec3 {
+    let pixel = WIDTH / PANEL[0] as f32;
+    scene_from_panel().transform_point(Vec3::new(
+        (x - 0.5 * PANEL[0] as f32) * pixel,
+        (0.5 * PANEL[1] as f32 - y) * pixel,
+        0.0,
+    ))
+}
+
 /// A hand half a metre before the panel that points at a pixel of it.
 fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
     let from = scene_from_panel().transform_point(Vec3::new(0.1, -0.2, 0.5));
@@ -76,14 +88,8 @@ fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
 }
 
 /// The same of a hand at a place of the scene's stage.
-fn pointing_from(from: Vec3, [x, y]: [f32; 2], trigger: f32) -> Hand {
-    let metres = WIDTH / PANEL[0] as f32;
-    let at = Vec3::new(
-        (x - 0.5 * PANEL[0] as f32) * metres,
-        (0.5 * PANEL[1] as f32 - y) * metres,
-        0.0,
-    );
-    let target = scene_from_panel().transform_point(at);
+fn pointing_from(from: Vec3, at: [f32; 2], trigger: f32) -> Hand {
+    let target = on_panel(at);
     let turn = Quat::from_rotation_arc(Vec3::NEG_Z, (target - from).normalize());
     Hand {
         active: true,
@@ -159,7 +165,7 @@ fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     // What would lose the user's work takes a second.
-    let scenes = on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes = choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
     let scenes: Vec<Decision> = scenes.collect();
     let others = [
         Decision::Act(Action::Start(None)),
@@ -241,14 +247,6 @@ fn the_last_trigger_decides_whose_hand_points() {
     assert_eq!(decided, []);
 }
 
-fn keep(name: &str, picture: &[u8]) {
-    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-        let file = std::path::Path::new(&keep).join(format!("{name}.png"));
-        let [width, height] = PANEL;
-        image::save_buffer(file, picture, width, height, image::ColorType::Rgba8).unwrap();
-    }
-}
-
 /// What short presses decide down the panel at that share of its width, each with its row.
 fn pressed_down(panel: &mut Panel, info: &Info, share: f32) -> Vec<(u32, Decision)> {
     let mut pressed = Vec::new();
@@ -289,7 +287,7 @@ fn what_an_instructor_says_is_over_all_and_hides_no_button() {
         "{pressed:?}"
     );
     let shown = picture(&gpu, &mut panel);
-    keep("told", &shown);
+    keep("told", PANEL, &shown, ColorType::Rgba8);
     // The strip has a ground of its own, down to where the rest begins: five lines of at least 30 pixels.
     let ground = &shown[..4];
     let strip = shown.chunks_exact(4 * PANEL[0] as usize);
@@ -333,7 +331,7 @@ fn what_happened_fits_the_panel() {
         "{rows:?}"
     );
     let shown = picture(&gpu, &mut panel);
-    keep("what-happened", &shown);
+    keep("what-happened", PANEL, &shown, ColorType::Rgba8);
     // Nothing runs over the margin.
     let ground = &shown[..4];
     for row in shown.chunks_exact(4 * width as usize) {
@@ -349,7 +347,7 @@ fn the_panel_is_legible() {
     let hand = pointing(700.0, 150.0, 0.0);
     panel.update([None, Some(&hand)], &info(), 0);
     let shown = picture(&gpu, &mut panel);
-    keep("panel", &shown);
+    keep("panel", PANEL, &shown, ColorType::Rgba8);
     let luminance = |pixel: &[u8]| {
         let linear = |byte: u8| (f32::from(byte) / 255.0).powf(2.2);
         0.2126 * linear(pixel[0]) + 0.7152 * linear(pixel[1]) + 0.0722 * linear(pixel[2])

@@ -3,6 +3,8 @@
 use crate::vr::common::{
     Calm, Worn, apart, carried, hash, nobody, options, pour, session, session_with,
 };
+use crate::vr::seen::keep;
+use image::ColorType;
 use std::path::Path;
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Language, Lesson, Mode};
@@ -113,12 +115,10 @@ fn what_is_shown_is_what_was_drawn() {
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 20, Calm);
     session(&mut headset, folder.path(), nobody());
     assert_eq!(headset.shown.len(), 20);
-    let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main).unwrap();
-    let colour = rec.read_back_image(&headset.inner.targets.colour).unwrap();
-    let depth = headset.inner.targets.depth.clone().unwrap();
-    let depth = rec.read_back_image(&depth).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let (colour, depth) = (colour.get::<u8>().unwrap(), depth.get::<f32>().unwrap());
+    let targets = &headset.inner.targets;
+    let colour: Vec<u8> = gpu::read_back(&gpu, &targets.colour).get().unwrap();
+    let depth = targets.depth.as_ref().unwrap();
+    let depth: Vec<f32> = gpu::read_back(&gpu, depth).get().unwrap();
     // Down there is the bench, some half a metre away; both eyes see something, each its own.
     let eyes: Vec<&[u8]> = colour.chunks_exact(4 * 96 * 64).collect();
     assert_ne!(eyes[0], eyes[1]);
@@ -132,10 +132,7 @@ fn what_is_shown_is_what_was_drawn() {
         assert_eq!(depth[eye * 48 * 32], 1.0);
         assert_eq!(picture[..3], [0, 0, 0]);
     }
-    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-        let file = Path::new(&keep).join("stand-in.png");
-        image::save_buffer(file, &colour, 96, 128, image::ColorType::Rgba8).unwrap();
-    }
+    keep("stand-in", [96, 128], &colour, ColorType::Rgba8);
 }
 
 mod long {

@@ -4,9 +4,11 @@
 
 use std::sync::mpsc::{Sender, channel};
 
-use crate::vr::common::{Calm, Trouble, Worn, heard, hearing, nobody, options, pour, session};
+use crate::vr::common::{
+    Calm, Trouble, Worn, heard, hearing, left_to, nobody, options, pour, session,
+};
 use glam::{Quat, Vec2, Vec3};
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::Gpu;
 use vitriol_render::SceneDesc;
 use vitriol_run::Action;
 use vitriol_run::track::key;
@@ -19,7 +21,7 @@ use vitriol_session::workbench::{TAKEN_UP, Workbench};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_tests::gpu;
-use vitriol_xr::{Headset, HeadsetError, Inset, Pose, Shown, Side, Targets, Turn, View};
+use vitriol_xr::{Headset, HeadsetError, Inset, Pose, Shown, Targets, Turn, View};
 
 /// Waits for the device so far.
 fn waits() -> u64 {
@@ -77,20 +79,13 @@ impl Trouble for Starts {
 }
 
 impl<T: Trouble> Headset for Strict<T> {
-    fn gpu(&self) -> &Gpu {
-        self.inner.gpu()
-    }
-    fn extent(&self) -> [u32; 2] {
-        self.inner.extent()
-    }
+    left_to!(inner);
+
     fn inset(&self) -> Option<Inset> {
         self.inner.inset()
     }
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         [Vec::new(), Vec::new()]
-    }
-    fn name(&self) -> &str {
-        self.inner.name()
     }
     fn next(&mut self) -> Result<Turn, HeadsetError> {
         let turn = self.inner.next()?;
@@ -111,30 +106,12 @@ impl<T: Trouble> Headset for Strict<T> {
         self.located = Some(views);
         Ok(views)
     }
-    fn gaze(&self) -> Option<Pose> {
-        self.inner.gaze()
-    }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.within += waits() - self.begun.take().unwrap();
         // What is submitted is what was located, this frame.
         let located = self.located.take();
         assert_eq!(shown.map(|shown| shown.views), located);
         self.inner.end(shown)
-    }
-    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
-        self.inner.vibrate(side, amplitude)
-    }
-    fn lose_device(&mut self) {
-        self.inner.lose_device();
-    }
-    fn rates(&self) -> &[f32] {
-        self.inner.rates()
-    }
-    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
-        self.inner.request_rate(rate)
-    }
-    fn request_exit(&mut self) -> Result<(), HeadsetError> {
-        self.inner.request_exit()
     }
 }
 
@@ -186,11 +163,8 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     let mut headset = Strict::new(&gpu, 5, Calm);
     session(&mut headset, folder.path(), nobody());
     let shown = *headset.inner.shown.last().unwrap();
-    let depth = headset.inner.inner.targets.depth.clone().unwrap();
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    let depth = rec.read_back_image(&depth).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let depth = depth.get::<f32>().unwrap();
+    let depth = headset.inner.inner.targets.depth.as_ref().unwrap();
+    let depth: Vec<f32> = gpu::read_back(&gpu, depth).get().unwrap();
 
     // Each depth is of a point in the room. Seen from where the picture is said to be taken it lies
     // on a face of the room or of the table, but for liquid and hands, which are small.

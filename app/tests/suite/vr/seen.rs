@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use glam::{Quat, Vec3};
-use vitriol_gpu::{Gpu, Image, QueueKind};
+use image::ColorType;
+use vitriol_gpu::{Gpu, Image};
 use vitriol_session::handle::middles;
 use vitriol_session::panel::{PANEL, SIZE, scene_from_panel};
 use vitriol_sim::scene::{PictureRoom, Scene};
@@ -47,14 +48,21 @@ pub struct Seen {
 
 /// All layers of an image of colour.
 pub fn read(gpu: &Gpu, image: &Image) -> Vec<[u8; 4]> {
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    let bytes = rec.read_back_image(image).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let bytes = bytes.get().unwrap();
-    bytes
-        .chunks_exact(4)
-        .map(|four| four.try_into().unwrap())
-        .collect()
+    gpu::read_back(gpu, image).get().unwrap()
+}
+
+/// Keeps a picture as a file, where `VITRIOL_KEEP_PICTURES` names a folder for it.
+pub fn keep(name: &str, [width, height]: [u32; 2], bytes: &[u8], colour: ColorType) {
+    if let Some(folder) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
+        let file = Path::new(&folder).join(format!("{name}.png"));
+        image::save_buffer(file, bytes, width, height, colour).unwrap();
+    }
+}
+
+/// The same of pixels with alpha, which is left out.
+pub fn keep_rgb(name: &str, extent: [u32; 2], pixels: &[[u8; 4]]) {
+    let rgb = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]);
+    keep(name, extent, &rgb.collect::<Vec<u8>>(), ColorType::Rgb8);
 }
 
 /// Of a session with those hands; `name` is for a picture that is kept. Also the panel as the headset has it.
@@ -84,18 +92,9 @@ impl Seen {
         let [width, height] = extent;
         let mut pixels = read(gpu, &headset.inner.targets.colour);
         pixels.truncate((width * height) as usize);
-        if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-            let keep = Path::new(&keep);
-            let rgb: Vec<u8> = pixels
-                .iter()
-                .flat_map(|[r, g, b, _]| [*r, *g, *b])
-                .collect();
-            let file = keep.join(format!("{name}.png"));
-            image::save_buffer(file, &rgb, width, height, image::ColorType::Rgb8).unwrap();
-            let alpha: Vec<u8> = pixels.iter().map(|pixel| pixel[3]).collect();
-            let file = keep.join(format!("{name}-alpha.png"));
-            image::save_buffer(file, &alpha, width, height, image::ColorType::L8).unwrap();
-        }
+        keep_rgb(name, extent, &pixels);
+        let alpha: Vec<u8> = pixels.iter().map(|pixel| pixel[3]).collect();
+        keep(&format!("{name}-alpha"), extent, &alpha, ColorType::L8);
         let view = headset.shown.last().unwrap().views[0];
         Self {
             extent,

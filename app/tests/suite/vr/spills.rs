@@ -4,13 +4,12 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::mpsc::channel;
 
-use crate::vr::common::{Calm, StartsOver, Trouble, Worn, hash, nobody, options, session_with};
+use crate::vr::common::{Calm, StartsOver, Trouble, Worn, hash, in_scene, nobody, session_with};
 use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
 use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Attempt, Cause, Incident, Skin as SkinOf, Surface, What};
-use vitriol_run::Scenes;
 use vitriol_session::session::Contacts;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
@@ -208,12 +207,8 @@ fn seen_under(gpu: &Gpu, fraction: &str, ducks: Range<u64>) -> (Seen, Contacts) 
     let name = format!("under-{fraction}-{}", ducks.end);
     let (track, frames) = (keyframes.sample_track(), (45.0, 40));
     let mut headset = Worn::of_extent(gpu, track, [240, 256], frames, Under { ducks });
-    let mut plan = options(folder.path());
-    let mut scenes = Scenes::default();
-    let file = overturned(folder.path(), fraction);
-    plan.plan.scene = scenes.open(file.to_str().unwrap()).unwrap();
-    plan.plan.scenes = scenes;
-    let (outcome, _) = session_with(&mut headset, plan, nobody());
+    let options = in_scene(folder.path(), &overturned(folder.path(), fraction));
+    let (outcome, _) = session_with(&mut headset, options, nobody());
     (Seen::last(gpu, &name, &headset), outcome.contacts)
 }
 
@@ -233,11 +228,8 @@ fn a_touch_just_before_a_new_start_counts() {
         decisions: sender,
     };
     let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, ASKS + 6, trouble);
-    let mut plan = options(folder.path());
-    let mut scenes = Scenes::default();
-    plan.plan.scene = scenes.open(acid(folder.path()).to_str().unwrap()).unwrap();
-    plan.plan.scenes = scenes;
-    let (outcome, _) = session_with(&mut headset, plan, decisions);
+    let options = in_scene(folder.path(), &acid(folder.path()));
+    let (outcome, _) = session_with(&mut headset, options, decisions);
     let [attempt, _] = &outcome.attempts[..] else {
         panic!("{:?}", outcome.attempts);
     };
@@ -267,11 +259,8 @@ mod long {
         let folder = tempfile::tempdir().unwrap();
         let keyframes = Keyframes::parse(TRACK, Path::new("beside.toml")).unwrap();
         let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, 180, Calm);
-        let mut plan = options(folder.path());
-        let mut scenes = Scenes::default();
-        plan.plan.scene = scenes.open(acid(folder.path()).to_str().unwrap()).unwrap();
-        plan.plan.scenes = scenes;
-        let (outcome, track) = session_with(&mut headset, plan, nobody());
+        let options = in_scene(folder.path(), &acid(folder.path()));
+        let (outcome, track) = session_with(&mut headset, options, nobody());
 
         // What lies there, by a measurement of its own: mL of 1.83 g/mL.
         let world = &outcome.world;

@@ -3,6 +3,7 @@
 use std::sync::mpsc::{Sender, channel};
 
 use crate::vr::common::{Trouble, Worn, hash, heard, options, pour, session_with};
+use crate::vr::leap::move_all;
 use crate::vr::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol_run::Action;
@@ -43,12 +44,7 @@ impl Trouble for Restless {
         self.moved |= after == A;
         if self.moved {
             let there = Pose::new(Vec3::new(2.0, 0.3, 1.0), Quat::from_rotation_y(1.0));
-            let poses = &mut frame.poses;
-            poses.stage_from_view = there.compose(&poses.stage_from_view);
-            for hand in &mut poses.hands {
-                hand.stage_from_grip = there.compose(&hand.stage_from_grip);
-                hand.stage_from_aim = there.compose(&hand.stage_from_aim);
-            }
+            move_all(&mut frame.poses, &there);
         }
     }
 }

@@ -1,21 +1,9 @@
 //! Headsets that sleep, that nobody wears, that show something else, and runtimes that are of no use.
 
-use vitriol_gpu::Options;
 use vitriol_tests::mock::{self, Change, Goal, HandState, Mock};
-use vitriol_xr::{Headset, HeadsetError, OpenXr, OpenXrOptions, Pause, Side, Turn};
+use vitriol_xr::{Headset, HeadsetError, OpenXr, Pause, Side, Turn};
 
-use crate::session::client::{Client, focused};
-
-fn options() -> OpenXrOptions {
-    OpenXrOptions {
-        gpu: Options::default(),
-        instance_extensions: Vec::new(),
-        device_extensions: Vec::new(),
-        gaze: false,
-        inset: false,
-        panel: [64, 32],
-    }
-}
+use crate::session::client::{Client, focused, on_mock, options};
 
 /// The next pause, after frames that are drawn; `None` if there is none in a while.
 fn pause(client: &mut Client) -> Option<Pause> {
@@ -75,11 +63,9 @@ fn a_headset_that_sleeps_is_waited_for() {
 
 #[test]
 fn nobody_wears_it() {
-    let Some(mock) = mock::enter("session::awake::nobody_wears_it", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::awake::nobody_wears_it", &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     assert_eq!(pause(&mut client), None);
     mock.say(Change::Presence(false));
     assert_eq!(pause(&mut client), Some(Pause::Off));
@@ -97,11 +83,9 @@ fn something_else_has_the_focus() {
         ..HandState::touch(1)
     };
     let name = "session::awake::something_else_has_the_focus";
-    let Some(mock) = mock::enter(name, &[Change::hand(1, gripping.clone())]) else {
+    let Some((mock, mut client)) = on_mock(name, &[Change::hand(1, gripping.clone())]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     mock.say(Change::Goal(Goal::Visible));
     let mut unfocused = 0;
     for _ in 0..6 {
@@ -148,19 +132,16 @@ fn hidden(mock: &Mock, client: &mut Client, corner: f32) -> Vec<[f32; 2]> {
         indices: vec![0, 1, 2],
     });
     for _ in 0..2 {
-        client.frame();
-        client.draw();
+        client.drawn();
     }
     client.xr.hidden_area()[0].clone()
 }
 
 #[test]
 fn a_mask_may_change() {
-    let Some(mock) = mock::enter("session::awake::a_mask_may_change", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::awake::a_mask_may_change", &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     for corner in [-0.5, -0.25] {
         let found = hidden(&mock, &mut client, corner);
         assert_eq!(found.len(), 3);
@@ -197,8 +178,7 @@ fn the_displays_rate_can_be_chosen() {
     assert_eq!(client.xr.rates(), [72.0, 80.0, 90.0, 120.0]);
     client.xr.request_rate(80.0).unwrap();
     client.focus();
-    let (frame, _) = client.frame();
-    client.draw();
+    let frame = client.drawn();
     // Whole nanoseconds.
     assert!((frame.poses.info.period_ns - 12_500_000).abs() < 2);
     client.assert_silent();

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, Options, QueueKind, vk};
+use vitriol_tests::mock::{self, Change, Mock};
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::{
     Headset, HeadsetFrame, Inset, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn,
@@ -20,6 +21,26 @@ pub fn focused(frame: &HeadsetFrame) -> bool {
 /// Width and height of a picture that is drawn smaller to save time.
 pub fn hurried(extent: [u32; 2]) -> [u32; 2] {
     extent.map(|side| side * 7 / 10)
+}
+
+/// Options of a client without gaze and inset.
+pub fn options() -> OpenXrOptions {
+    OpenXrOptions {
+        gpu: Options::default(),
+        instance_extensions: Vec::new(),
+        device_extensions: Vec::new(),
+        gaze: false,
+        inset: false,
+        panel: PANEL,
+    }
+}
+
+/// A client that has the focus, on a mock runtime that begins with `changes`, in the test of that name.
+pub fn on_mock(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
+    let mock = mock::enter(name, changes)?;
+    let mut client = Client::open();
+    client.focus();
+    Some((mock, client))
 }
 
 /// A headset, and pictures of its size.
@@ -49,11 +70,9 @@ impl Client {
                 validation: true,
                 ..Options::default()
             },
-            instance_extensions: Vec::new(),
-            device_extensions: Vec::new(),
             gaze,
             inset: gaze,
-            panel: PANEL,
+            ..options()
         };
         let xr = OpenXr::open(options, |_| false).unwrap();
         Self { xr, pictures: None }
@@ -78,12 +97,18 @@ impl Client {
         panic!("no frame came: {others:?}");
     }
 
+    /// The next frame, drawn.
+    pub fn drawn(&mut self) -> HeadsetFrame {
+        let (frame, _) = self.frame();
+        self.draw();
+        frame
+    }
+
     /// Frames until one has the focus.
     pub fn focus(&mut self) -> HeadsetFrame {
         let begun = Instant::now();
         while begun.elapsed() < PATIENCE {
-            let (frame, _) = self.frame();
-            self.draw();
+            let frame = self.drawn();
             if focused(&frame) {
                 return frame;
             }
@@ -101,6 +126,17 @@ impl Client {
         })
     }
 
+    /// The whole of each picture, with the eyes as they are located, and no panel.
+    pub fn shown(&self, views: [View; 2]) -> Shown {
+        Shown {
+            views,
+            extent: self.xr.extent(),
+            inset: self.xr.inset(),
+            near: 0.05,
+            panel: None,
+        }
+    }
+
     /// Draws the frame and ends it; gives the colour target.
     pub fn draw(&mut self) -> Image {
         let targets = self.xr.acquire(true).unwrap().unwrap();
@@ -108,15 +144,14 @@ impl Client {
         let views = self.xr.locate_views().unwrap();
         let panel = Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY);
         let shown = Shown {
-            views,
             // A corner of the image, as a program in a hurry draws.
             extent: hurried(self.xr.extent()),
             inset: self.xr.inset().map(|inset| Inset {
                 extent: hurried(inset.extent),
                 ..inset
             }),
-            near: 0.05,
             panel: Some((panel, 0.3)),
+            ..self.shown(views)
         };
         self.xr.end(Some(&shown)).unwrap();
         targets.colour

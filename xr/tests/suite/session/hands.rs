@@ -1,7 +1,7 @@
 //! Input that is driven into the runtime comes out as head and hands.
 
 use glam::{Quat, Vec3};
-use vitriol_gpu::QueueKind;
+use vitriol_tests::gpu::read_back;
 use vitriol_tests::monado::{self, Controller};
 use vitriol_xr::{Headset, HeadsetFrame, Pose, Side};
 
@@ -86,11 +86,8 @@ fn what_is_driven_arrives() {
     client.xr.vibrate(Side::Right, 0.0).unwrap();
 
     // The runtime's own image holds the bytes of our picture.
-    let gpu = client.xr.gpu().clone();
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    let bytes = rec.read_back_image(&shown.unwrap()).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let texels = bytes.get::<[u8; 4]>().unwrap();
+    let texels = read_back(client.xr.gpu(), &shown.unwrap());
+    let texels = texels.get::<[u8; 4]>().unwrap();
     assert_eq!(
         texels.len() as u32,
         2 * client.xr.extent()[0] * client.xr.extent()[1]

@@ -1,11 +1,11 @@
 //! The runtime's own foveation: a second pair of views (quad views).
 
 use glam::{Quat, Vec3};
-use vitriol_gpu::{Gpu, Image, QueueKind};
+use vitriol_tests::gpu::read_back;
 use vitriol_tests::mock::{self, Change, Inset, Layer, Mock, ProjectionView};
 use vitriol_xr::{Fov, Headset, HeadsetError, Shown};
 
-use crate::session::client::{Client, EYES, INSET, hurried};
+use crate::session::client::{Client, EYES, INSET, hurried, on_mock};
 
 pub const QUAD: &str = "XR_VARJO_quad_views";
 pub const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
@@ -88,15 +88,6 @@ pub fn assert_near(found: [f32; 4], wanted: [f32; 4]) {
     assert!(near, "{found:?}, {wanted:?}");
 }
 
-fn pixels(gpu: &Gpu, image: &Image) -> Vec<[u8; 4]> {
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    let bytes = rec.read_back_image(image).unwrap();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    let bytes = bytes.get::<u8>().unwrap();
-    let pixels = bytes.chunks_exact(4);
-    pixels.map(|four| four.try_into().unwrap()).collect()
-}
-
 /// Both pairs are in one layer, each with its views, its part of its own images, and its depth.
 #[test]
 fn both_pairs_are_shown() {
@@ -121,7 +112,7 @@ fn both_pairs_are_shown() {
         (&targets.colour, eyes, EYES),
         (&of_inset.colour, inset, INSET),
     ] {
-        let found = pixels(&gpu, image);
+        let found: Vec<[u8; 4]> = read_back(&gpu, image).get().unwrap();
         assert_eq!(found.len() as u32, 2 * extent[0] * extent[1]);
         assert!(found.iter().all(|pixel| *pixel == colour));
     }
@@ -187,8 +178,7 @@ fn stays(name: &str, changes: &[Change]) {
     };
     assert_eq!(begun(&mock), [(OF_QUAD, 0)]);
     assert_eq!(client.xr.extent(), STEREO);
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     let inset = client.xr.inset().unwrap();
     assert_eq!(inset.extent, Inset::default().extent);
@@ -243,11 +233,9 @@ fn extensions(mock: &Mock) -> usize {
 #[test]
 fn none_is_had_where_none_is_asked_for() {
     let name = "session::inset::none_is_had_where_none_is_asked_for";
-    let Some(mock) = mock::enter(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = on_mock(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     is_stereo(&mock, &mut client);
     assert_eq!(begun(&mock), [(OF_STEREO, 0)]);
     assert_eq!(extensions(&mock), 0);
@@ -264,8 +252,7 @@ fn images_with_one_layer() {
     let Some((mock, mut client)) = opened(name, &changes) else {
         return;
     };
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     let views = shown(&mock);
     assert_eq!(views.len(), 4);
@@ -351,8 +338,7 @@ fn an_empty_field_of_view() {
         return;
     };
     let frame = |client: &mut Client| {
-        client.frame();
-        client.draw();
+        client.drawn();
         client.xr.inset().unwrap().views
     };
     let inset = frame(&mut client);
@@ -383,20 +369,17 @@ fn a_frame_without_it_is_ended_without_a_picture() {
         assert!(others.is_empty(), "{others:?}");
         let targets = client.xr.acquire(true).unwrap().unwrap();
         client.submit(&targets);
+        let views = client.xr.locate_views().unwrap();
         let lacks = Shown {
-            views: client.xr.locate_views().unwrap(),
-            extent: client.xr.extent(),
             inset: None,
-            near: 0.05,
-            panel: None,
+            ..client.shown(views)
         };
         let ended = client.xr.end(Some(&lacks));
         assert!(matches!(ended, Err(HeadsetError::NoInset)), "{ended:?}");
         let (_, ended) = mock.frames().pop().unwrap();
         assert!(ended.layers.is_empty(), "{ended:?}");
     }
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     assert_eq!(shown(&mock).len(), 4);
 }

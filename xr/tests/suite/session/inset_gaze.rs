@@ -20,8 +20,7 @@ fn it_follows_the_gaze() {
             Vec3::new(0.0, 1.6, 0.0),
             turn,
         ))));
-        client.frame();
-        client.draw();
+        client.drawn();
         let towards = turn * Vec3::NEG_Z;
         let [aside, above] = [towards.x, towards.y].map(|it| (it / -towards.z).atan());
         // A turn to the left alone is that angle.
@@ -63,8 +62,7 @@ fn a_gaze_that_is_lost_and_found() {
         mock.say(Change::Gaze(left.map(|left| {
             mock::Pose::new(Vec3::new(0.0, 1.6, 0.0), Quat::from_rotation_y(left))
         })));
-        client.frame();
-        client.draw();
+        client.drawn();
         let asked = asked(&mock, before);
         assert!(!asked.is_empty());
         assert!(asked.iter().all(|it| *it == left.is_some()), "{asked:?}");
@@ -94,8 +92,7 @@ fn it_stays_without_the_gazes_space() {
     let Some((mock, mut client)) = opened(name, &changes) else {
         return;
     };
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     let asked = asked(&mock, 0);
     assert!(!asked.is_empty() && asked.iter().all(|it| !it), "{asked:?}");

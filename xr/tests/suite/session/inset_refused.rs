@@ -67,8 +67,7 @@ fn refused_images_of_depth() {
     let Some((mock, mut client)) = without_images(name, extent) else {
         return;
     };
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     let has_depth: Vec<_> = shown(&mock)
         .iter()
@@ -151,8 +150,7 @@ fn another_call_that_is_always_refused() {
     );
     mock.say(Change::RefuseNothing);
     client.focus();
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
     assert_eq!(shown(&mock).len(), 4);
     assert_eq!(begun(&mock), [(OF_QUAD, 0), (OF_QUAD, 0)]);
@@ -174,8 +172,7 @@ fn refused_images_that_are_given_back() {
             when: None,
         });
         let before = mock.calls_of("xrReleaseSwapchainImage").len();
-        client.frame();
-        client.draw();
+        client.drawn();
         let released = mock.calls_of("xrReleaseSwapchainImage").into_iter();
         let answers: Vec<_> = released.skip(before).map(|call| call.answer).collect();
         let wanted = [0, 1, 2, 3, 4].map(|at| match at < refused {
@@ -185,8 +182,7 @@ fn refused_images_that_are_given_back() {
         assert_eq!(answers, wanted);
         let (_, ended) = mock.frames().pop().unwrap();
         assert!(ended.layers.is_empty(), "{ended:?}");
-        client.frame();
-        client.draw();
+        client.drawn();
         assert_eq!(shown(&mock).len(), 4);
     }
     client.assert_silent();

@@ -1,9 +1,10 @@
 //! A session's beginning and end.
 
-use std::process::{Child, Command};
+use std::process::Command;
 use std::time::Instant;
 
 use vitriol_tests::monado::{self, Controller};
+use vitriol_tests::program::Kept;
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::{Headset, Side, Turn};
 
@@ -72,16 +73,6 @@ fn another_program() -> ! {
     }
 }
 
-/// A child that does not outlive the test.
-struct Other(Child);
-
-impl Drop for Other {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
 /// Makes Monado show the client with that number.
 fn show(client: &str) {
     let done = Command::new("monado-ctl")
@@ -138,7 +129,7 @@ fn the_focus_goes_to_another_program_and_comes_back() {
         )
         .spawn()
         .unwrap();
-    let _other = Other(other);
+    let _other = Kept(other);
     // The newcomer is shown in our place.
     until(&mut client, |turn| matches!(turn, Turn::Paused { .. }));
     show("1");

@@ -6,7 +6,7 @@ use glam::Vec3;
 use vitriol_gpu::Buffer;
 use vitriol_tests::monado::{self, Controller, Rig};
 use vitriol_tests::wait::{PATIENCE, own_time};
-use vitriol_xr::{Headset, HeadsetFrame, Shown, Side, Turn};
+use vitriol_xr::{Headset, HeadsetFrame, Side, Turn};
 
 use crate::session::client::Client;
 
@@ -35,13 +35,7 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
     kill(rig, At::Locate);
     let views = client.xr.locate_views().unwrap();
     kill(rig, At::End);
-    let shown = Shown {
-        views,
-        extent: client.xr.extent(),
-        inset: client.xr.inset(),
-        near: 0.05,
-        panel: None,
-    };
+    let shown = client.shown(views);
     client.xr.end(Some(&shown)).unwrap();
     kill(rig, At::Next);
 

@@ -1,20 +1,17 @@
 //! A Vulkan device that is lost while the runtime stays.
 
-use vitriol_tests::mock;
 use vitriol_xr::Headset;
 
-use crate::session::client::Client;
+use crate::session::client::on_mock;
 
 /// In the middle of a frame, and before one. The frame is not ended; session and device are made anew, and frames go on on another
 /// device.
 #[test]
 fn another_device_is_opened() {
     let name = "session::lost_device::another_device_is_opened";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     for round in 0..2 {
         let before = client.xr.gpu().handles().device;
         if round == 0 {

@@ -3,12 +3,11 @@
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
-use vitriol_gpu::Options;
 use vitriol_tests::mock::{self, Change, HandState, Known, Layer, Mock, SpaceKind};
 use vitriol_tests::wait::PATIENCE;
-use vitriol_xr::{Headset, HeadsetError, OpenXr, OpenXrOptions, Pose, Shown, Side, Turn};
+use vitriol_xr::{Headset, HeadsetError, OpenXr, Pose, Side, Turn};
 
-use crate::session::client::Client;
+use crate::session::client::{Client, on_mock, options};
 
 /// XR_ERROR_LIMIT_REACHED
 const LIMIT_REACHED: i32 = -10;
@@ -25,14 +24,11 @@ fn offer(floor: SpaceKind) -> Change {
 #[test]
 fn frames_are_shown_to_both_eyes() {
     let name = "session::mock::frames_are_shown_to_both_eyes";
-    let Some(mock) = mock::enter(name, &[offer(SpaceKind::Stage)]) else {
+    let Some((mock, mut client)) = on_mock(name, &[offer(SpaceKind::Stage)]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     assert_eq!(client.xr.extent(), [64, 48]);
-    let (frame, _) = client.frame();
-    client.draw();
+    let frame = client.drawn();
     let head = frame.poses.stage_from_view.position;
     assert_eq!(head, Vec3::new(0.0, 1.6, 0.0));
     client.assert_silent();
@@ -65,11 +61,9 @@ fn frames_are_shown_to_both_eyes() {
 #[test]
 fn a_controller_arrives_through_its_bindings() {
     let name = "session::mock::a_controller_arrives_through_its_bindings";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let left = HandState {
         squeeze: 0.25,
         trigger: 0.5,
@@ -83,8 +77,7 @@ fn a_controller_arrives_through_its_bindings() {
         side: 1,
         state: None,
     });
-    let (frame, _) = client.frame();
-    client.draw();
+    let frame = client.drawn();
     let hand = frame.poses.hand(Side::Left);
     assert!(hand.active && hand.valid && hand.tracked, "{hand:?}");
     assert_eq!((hand.squeeze, hand.trigger), (0.25, 0.5));
@@ -146,11 +139,9 @@ fn the_gaze_is_not_asked_for_by_itself() {
         Change::Gaze(Some(mock::Pose::IDENTITY)),
     ];
     let name = "session::mock::the_gaze_is_not_asked_for_by_itself";
-    let Some(_mock) = mock::enter(name, &changes) else {
+    let Some((_mock, mut client)) = on_mock(name, &changes) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     client.frame();
     client.xr.locate_views().unwrap();
     assert_eq!(client.xr.gaze(), None);
@@ -161,11 +152,9 @@ fn the_gaze_is_not_asked_for_by_itself() {
 #[test]
 fn a_change_takes_effect_in_its_frame() {
     let name = "session::mock::a_change_takes_effect_in_its_frame";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let first = mock.frame();
     let head = |x: f32| Change::head(mock::Pose::at(x, 1.6, 0.0));
     for n in 1..=8 {
@@ -195,8 +184,7 @@ fn moves(mock: &Mock, client: &mut Client, space: SpaceKind) -> Vec<(f32, bool)>
     client.focus();
     let mut seen = Vec::new();
     let mut frame = |client: &mut Client| {
-        let (frame, _) = client.frame();
-        client.draw();
+        let frame = client.drawn();
         let head = frame.poses.stage_from_view.position;
         seen.push((head.x, frame.recentred));
     };
@@ -254,14 +242,6 @@ fn what_is_to_be_refused_is_refused() {
     let Some(mock) = mock::enter(name, &changes) else {
         return;
     };
-    let options = || OpenXrOptions {
-        gpu: Options::default(),
-        instance_extensions: Vec::new(),
-        device_extensions: Vec::new(),
-        gaze: false,
-        inset: false,
-        panel: [64, 32],
-    };
     let Err(refused) = OpenXr::open(options(), |_| false) else {
         panic!("it is open");
     };
@@ -285,11 +265,9 @@ fn what_is_to_be_refused_is_refused() {
 
 #[test]
 fn what_is_wrong_is_refused() {
-    let Some(mock) = mock::enter("session::mock::what_is_wrong_is_refused", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::mock::what_is_wrong_is_refused", &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     client.frame();
     let targets = client.xr.acquire(true).unwrap().unwrap();
     client.submit(&targets);
@@ -298,13 +276,7 @@ fn what_is_wrong_is_refused() {
         orientation: Quat::from_xyzw(0.0, 0.0, 0.0, 1.01),
         ..views[1].stage_from_eye
     };
-    let shown = Shown {
-        views,
-        extent: client.xr.extent(),
-        inset: client.xr.inset(),
-        near: 0.05,
-        panel: None,
-    };
+    let shown = client.shown(views);
     // The client's own result does not matter here.
     let _ = client.xr.end(Some(&shown));
     let ends = mock.calls_of("xrEndFrame");
@@ -315,8 +287,7 @@ fn what_is_wrong_is_refused() {
         panic!("{ended:?}");
     };
     assert_eq!(views[1].pose.orientation.w, 1.01);
-    client.frame();
-    client.draw();
+    client.drawn();
     client.assert_silent();
 }
 
@@ -343,11 +314,9 @@ fn a_lost_session_is_followed_by_another() {
 
 #[test]
 fn the_way_down_is_legal_too() {
-    let Some(mock) = mock::enter("session::mock::the_way_down_is_legal_too", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::mock::the_way_down_is_legal_too", &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     mock.say(Change::Goal(mock::Goal::Idle));
     let begun = Instant::now();
     while mock.calls_of("xrEndSession").is_empty() {
@@ -369,11 +338,10 @@ fn the_way_down_is_legal_too() {
 
 #[test]
 fn what_is_not_known_is_rubbish() {
-    let Some(mock) = mock::enter("session::mock::what_is_not_known_is_rubbish", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::mock::what_is_not_known_is_rubbish", &[])
+    else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     mock.say(Change::Head {
         pose: mock::Pose::at(0.5, 1.6, 0.0),
         known: Known::TURNED,
@@ -434,8 +402,7 @@ fn hands_without_controllers_and_masks_arrive() {
         vertices: vec![[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]],
         indices: vec![0, 1, 2, 1, 2, 3],
     });
-    client.frame();
-    client.draw();
+    client.drawn();
     assert_eq!(client.xr.hidden_area().map(|mask| mask.len()), [6, 3]);
     client.assert_silent();
 }

@@ -2,16 +2,14 @@
 
 use vitriol_tests::mock::{self, Change, SpaceKind};
 
-use crate::session::client::Client;
+use crate::session::client::on_mock;
 
 #[test]
 fn it_is_heard_whichever_space_moves() {
     let name = "session::recentring::it_is_heard_whichever_space_moves";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     for (n, space) in (1..).zip([SpaceKind::Local, SpaceKind::LocalFloor, SpaceKind::Stage]) {
         let origin = mock::Pose::at(0.5 * n as f32, 0.0, 0.0);
         mock.say(Change::recentre(space, origin));
@@ -35,11 +33,10 @@ fn it_is_heard_whichever_space_moves() {
 /// Poses leap in the frame in which the client reports it, in the space that the user recentres.
 #[test]
 fn poses_leap_as_it_is_told() {
-    let Some(mock) = mock::enter("session::recentring::poses_leap_as_it_is_told", &[]) else {
+    let Some((mock, mut client)) = on_mock("session::recentring::poses_leap_as_it_is_told", &[])
+    else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let (_, ended) = mock.frames().pop().unwrap();
     let [.., mock::Layer::Projection { space, .. }] = &ended.layers[..] else {
         panic!("{ended:?}");
@@ -51,8 +48,7 @@ fn poses_leap_as_it_is_told() {
     mock.say(Change::recentre(SpaceKind::LocalFloor, origin));
     let mut last = 0.0;
     for _ in 0..4 {
-        let (frame, _) = client.frame();
-        client.draw();
+        let frame = client.drawn();
         let x = frame.poses.stage_from_view.position.x;
         assert_eq!(frame.recentred, x != last, "{x} after {last}");
         last = x;

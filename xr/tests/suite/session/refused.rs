@@ -1,10 +1,10 @@
 //! A session goes on without what the runtime refuses.
 
 use glam::{Quat, Vec3};
-use vitriol_tests::mock::{self, Change, Depth, Layer, Mock};
+use vitriol_tests::mock::{Change, Depth, Layer, Mock};
 use vitriol_xr::{Headset, Pose, Shown, Side, Turn};
 
-use crate::session::client::Client;
+use crate::session::client::{Client, on_mock};
 
 /// XR_ERROR_VALIDATION_FAILURE and XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED
 const VALIDATION_FAILURE: i32 = -1;
@@ -58,12 +58,9 @@ impl Last {
 
 /// A client that has drawn some frames on a runtime that begins with `changes`.
 fn drawn(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
-    let mock = mock::enter(name, changes)?;
-    let mut client = Client::open();
-    client.focus();
+    let (mock, mut client) = on_mock(name, changes)?;
     for _ in 0..5 {
-        client.frame();
-        client.draw();
+        client.drawn();
     }
     client.assert_silent();
     Some((mock, client))
@@ -142,12 +139,10 @@ fn try_to_draw(client: &mut Client, shakes: f32, panel: bool) {
         return client.xr.end(None).unwrap();
     };
     client.submit(&targets);
+    let views = client.xr.locate_views().unwrap();
     let shown = Shown {
-        views: client.xr.locate_views().unwrap(),
-        extent: client.xr.extent(),
-        inset: client.xr.inset(),
-        near: 0.05,
         panel: Some((Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY), 0.3)),
+        ..client.shown(views)
     };
     client.xr.end(Some(&shown)).unwrap();
 }

@@ -55,11 +55,8 @@ fn draw(dump: &Path) {
         let early = frame.poses.stage_from_view.position;
         assert!(early.distance(head) > 0.01, "frame {n}");
         let shown = Shown {
-            views,
             extent: DRAWN,
-            inset: client.xr.inset(),
-            near: 0.05,
-            panel: None,
+            ..client.shown(views)
         };
         client.xr.end(Some(&shown)).unwrap();
         drawn.push((time, views));

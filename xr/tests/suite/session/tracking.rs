@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 use vitriol_tests::mock::{self, Change, Fov, HandState, Known, Mock};
 use vitriol_xr::{Headset, Pause, Pose, Side, Turn, View};
 
-use crate::session::client::Client;
+use crate::session::client::{Client, on_mock};
 
 fn head(position: Vec3, yaw: f32, known: Known) -> Change {
     Change::Head {
@@ -64,11 +64,9 @@ fn seen(client: &mut Client, lost: bool) -> ([View; 2], Pose) {
 #[test]
 fn a_head_whose_place_is_lost_goes_on_turning() {
     let name = "session::tracking::a_head_whose_place_is_lost_goes_on_turning";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let place = Vec3::new(0.2, 1.5, 0.1);
     mock.say(head(place, 0.0, Known::TRACKED));
     seen(&mut client, false);
@@ -127,11 +125,9 @@ fn a_headset_that_only_turns_serves_after_a_while() {
 #[test]
 fn a_hand_whose_place_is_lost_stays_where_it_was() {
     let name = "session::tracking::a_hand_whose_place_is_lost_stays_where_it_was";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(name, &[]) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let held = HandState {
         squeeze: 0.75,
         grip: mock::Pose::at(0.3, 1.1, -0.5),
@@ -150,8 +146,7 @@ fn a_hand_whose_place_is_lost_stays_where_it_was() {
             ..held.clone()
         };
         mock.say(Change::hand(1, state));
-        let (frame, _) = client.frame();
-        client.draw();
+        let frame = client.drawn();
         let hand = frame.poses.hand(Side::Right);
         assert!(hand.active, "{known:?}");
         assert_eq!((hand.valid, hand.tracked), (valid, tracked), "{known:?}");
@@ -187,15 +182,12 @@ fn bare(apart: f32) -> Vec<mock::Joint> {
 #[test]
 fn a_bare_hand_is_seen() {
     let none = [0, 1].map(|side| Change::Hand { side, state: None });
-    let Some(mock) = mock::enter("session::tracking::a_bare_hand_is_seen", &none) else {
+    let Some((mock, mut client)) = on_mock("session::tracking::a_bare_hand_is_seen", &none) else {
         return;
     };
-    let mut client = Client::open();
-    client.focus();
     let mut see = |joints: Option<Vec<mock::Joint>>| {
         mock.say(Change::Joints { side: 1, joints });
-        let (frame, _) = client.frame();
-        client.draw();
+        let frame = client.drawn();
         frame
     };
     for (apart, pulls) in [(0.06, 0.0), (0.016, 1.0)] {

@@ -1,8 +1,10 @@
 //! What a file holds beside the track, decoded with the schemas in the file.
 
-use prost_reflect::{DescriptorPool, DynamicMessage, Value};
+use prost_reflect::{DynamicMessage, Value};
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Annex, Existing, TrackWriter};
+
+use super::{get, number};
 
 /// Times (ns) and messages of a topic.
 fn messages(bytes: &[u8], topic: &str) -> Vec<(u64, DynamicMessage)> {
@@ -10,23 +12,8 @@ fn messages(bytes: &[u8], topic: &str) -> Vec<(u64, DynamicMessage)> {
         .unwrap()
         .map(Result::unwrap)
         .filter(|message| message.channel.topic == topic)
-        .map(|message| {
-            let schema = message.channel.schema.as_ref().unwrap();
-            let pool = DescriptorPool::decode(&schema.data[..]).unwrap();
-            let descriptor = pool.get_message_by_name(&schema.name).unwrap();
-            let decoded = DynamicMessage::decode(descriptor, &message.data[..]).unwrap();
-            assert_eq!(decoded.unknown_fields().count(), 0, "{decoded:?}");
-            (message.log_time, decoded)
-        })
+        .map(|message| (message.log_time, super::decoded(&message)))
         .collect()
-}
-
-fn get(message: &DynamicMessage, name: &str) -> Value {
-    message.get_field_by_name(name).unwrap().into_owned()
-}
-
-fn number(message: &DynamicMessage, name: &str) -> f64 {
-    get(message, name).as_f64().unwrap()
 }
 
 /// The bytes of a file of one frame with `annexes`, each with its time (ns).

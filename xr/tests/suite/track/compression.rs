@@ -57,19 +57,7 @@ fn lz4_and_none_are_the_same_track() {
         plain(),
         plain().use_chunks(false),
     ] {
-        let mut written = Vec::new();
-        let mut writer = options.create(std::io::Cursor::new(&mut written)).unwrap();
-        let map = [("scene", "s"), ("seed", "1"), ("program_version", "v")];
-        let record = mcap::records::Metadata {
-            name: "vitriol".into(),
-            metadata: map.map(|(k, v)| (k.to_owned(), v.to_owned())).into(),
-        };
-        writer.write_metadata(&record).unwrap();
-        for message in mcap::MessageStream::new(&bytes).unwrap() {
-            writer.write(&message.unwrap()).unwrap();
-        }
-        writer.finish().unwrap();
-        drop(writer);
+        let written = super::copied(options, &[super::OWN], &bytes);
         assert_eq!(parse(&written).unwrap().frames, whole.frames);
     }
 }

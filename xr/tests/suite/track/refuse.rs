@@ -39,31 +39,23 @@ fn good() -> Vec<Raw> {
 }
 
 fn read(messages: &[Raw], with_metadata: bool) -> Result<Track, String> {
-    let mut bytes = Vec::new();
-    let mut writer = mcap::Writer::new(std::io::Cursor::new(&mut bytes)).unwrap();
-    if with_metadata {
-        let map = [("scene", "s"), ("seed", "1"), ("program_version", "v")];
-        let record = mcap::records::Metadata {
-            name: "vitriol".into(),
-            metadata: map.map(|(k, v)| (k.to_owned(), v.to_owned())).into(),
-        };
-        writer.write_metadata(&record).unwrap();
-    }
-    for raw in messages {
-        let schema = writer.add_schema(&raw.schema, "protobuf", b"").unwrap();
-        let channel_id = writer
-            .add_channel(schema, &raw.topic, "protobuf", &BTreeMap::new())
-            .unwrap();
-        let header = MessageHeader {
-            channel_id,
-            sequence: raw.sequence,
-            log_time: raw.log_time,
-            publish_time: raw.log_time,
-        };
-        writer.write_to_known_channel(&header, &raw.data).unwrap();
-    }
-    writer.finish().unwrap();
-    drop(writer);
+    let own = [super::OWN];
+    let records = if with_metadata { &own[..] } else { &[] };
+    let bytes = super::foreign_bytes(mcap::WriteOptions::new(), records, |writer| {
+        for raw in messages {
+            let schema = writer.add_schema(&raw.schema, "protobuf", b"").unwrap();
+            let channel_id = writer
+                .add_channel(schema, &raw.topic, "protobuf", &BTreeMap::new())
+                .unwrap();
+            let header = MessageHeader {
+                channel_id,
+                sequence: raw.sequence,
+                log_time: raw.log_time,
+                publish_time: raw.log_time,
+            };
+            writer.write_to_known_channel(&header, &raw.data).unwrap();
+        }
+    });
     Track::parse(&bytes, Path::new("bad.mcap")).map_err(|error| error.to_string())
 }
 

@@ -1,7 +1,9 @@
 //! The file describes itself: a viewer without this program's code decodes the written values with the schemas in the file.
 
-use prost_reflect::{DescriptorPool, DynamicMessage, MessageDescriptor, ReflectMessage, Value};
+use prost_reflect::{DescriptorPool, DynamicMessage, MessageDescriptor, ReflectMessage};
 use vitriol_xr::{Pose, Side};
+
+use super::{get, number};
 
 struct Decoded {
     topic: String,
@@ -19,32 +21,20 @@ fn decoded() -> Vec<Decoded> {
             let schema = message.channel.schema.as_ref().unwrap();
             assert_eq!(schema.encoding, "protobuf");
             assert_eq!(message.channel.message_encoding, "protobuf");
-            let pool = DescriptorPool::decode(&schema.data[..]).unwrap();
-            let descriptor = pool.get_message_by_name(&schema.name).unwrap();
-            let decoded = DynamicMessage::decode(descriptor, &message.data[..]).unwrap();
-            assert_eq!(decoded.unknown_fields().count(), 0, "{decoded:?}");
             Decoded {
                 topic: message.channel.topic.clone(),
                 sequence: message.sequence,
                 log_time: message.log_time,
-                message: decoded,
+                message: super::decoded(&message),
             }
         })
         .collect()
-}
-
-fn get(message: &DynamicMessage, name: &str) -> Value {
-    message.get_field_by_name(name).unwrap().into_owned()
 }
 
 fn sub(message: &DynamicMessage, name: &str) -> DynamicMessage {
     let sub = get(message, name).as_message().unwrap().clone();
     assert_eq!(sub.unknown_fields().count(), 0);
     sub
-}
-
-fn number(message: &DynamicMessage, name: &str) -> f64 {
-    get(message, name).as_f64().unwrap()
 }
 
 /// Parent, child and pose of each transform of a `foxglove.FrameTransforms`.

@@ -2,9 +2,10 @@
 
 use std::io::Read;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use vitriol_tests::program::Kept;
 pub use vitriol_tests::wait::until;
 
 /// Marks a test that was started again.
@@ -69,7 +70,7 @@ pub fn pause(time: Duration) {
 }
 
 /// A server, which ends when this is dropped.
-pub struct Server(Child);
+pub struct Server(Kept);
 
 impl Server {
     /// Starts a server with an output "vitriol"; `None` where PulseAudio is not installed, with a message. With `CI=true` that is a
@@ -105,7 +106,7 @@ impl Server {
             eprintln!("NOT TESTED: {test}: {cause}");
             return None;
         };
-        let mut server = Self(child);
+        let mut server = Self(Kept(child));
         std::fs::write(folder.join("process"), server.0.id().to_string()).unwrap();
         until("the server's socket", || {
             let ended = server.0.try_wait().unwrap();
@@ -116,15 +117,8 @@ impl Server {
     }
 }
 
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
 /// The output's sound, from inside, recorded by PulseAudio's own program.
-pub struct Recorder(Child);
+pub struct Recorder(Kept);
 
 impl Recorder {
     /// Starts to record.
@@ -136,7 +130,7 @@ impl Recorder {
             "--rate=48000",
         ]);
         command.args(["--channels=2", "--latency-msec=20"]);
-        let mut recorder = Self(command.stdout(Stdio::piped()).spawn().unwrap());
+        let mut recorder = Self(Kept(command.stdout(Stdio::piped()).spawn().unwrap()));
         recorder.seconds(0.1);
         recorder
     }
@@ -149,12 +143,5 @@ impl Recorder {
         let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().unwrap());
         let both = |bytes: &[u8]| [number(&bytes[..4]), number(&bytes[4..])];
         bytes.chunks_exact(8).map(both).collect()
-    }
-}
-
-impl Drop for Recorder {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
     }
 }
