@@ -267,7 +267,8 @@ mod tests {
     fn every_criterion_tells() {
         let recipe = Recipe::of(Base::Physical);
         assert!(reasons(&recipe, &calm()).is_empty());
-        let broken: [(&str, fn(&mut Run)); 9] = [
+        type Breaks = fn(&mut Run);
+        let broken: [(&str, Breaks); 9] = [
             ("not finite", |run| run.not_finite = 1),
             ("taken out", |run| run.counters.nan_particles = 1),
             ("beyond a wall", |run| run.lost = 1),

@@ -187,8 +187,7 @@ fn a_bare_hand_is_seen() {
     };
     let mut see = |joints: Option<Vec<mock::Joint>>| {
         mock.say(Change::Joints { side: 1, joints });
-        let frame = client.drawn();
-        frame
+        client.drawn()
     };
     for (apart, pulls) in [(0.06, 0.0), (0.016, 1.0)] {
         let frame = see(Some(bare(apart)));
