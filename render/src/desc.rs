@@ -1,5 +1,6 @@
 //! Description from which a renderer is made.
 
+use crate::RenderError;
 use crate::tints::Tint;
 
 /// Size and views of the picture, and its liquid.
@@ -46,6 +47,21 @@ impl RenderDesc {
             lanes: Lanes::CHOSEN,
             foveated: false,
         }
+    }
+
+    /// Checks that a buffer of `limit` bytes has a number for each pixel of each view, as several of the passes need.
+    pub(crate) fn check(&self, limit: u64) -> Result<(), RenderError> {
+        let [width, height] = self.extent.map(u64::from);
+        let most = limit / size_of::<f32>() as u64 / u64::from(self.views.max(1));
+        if width * height <= most {
+            return Ok(());
+        }
+        let share = (most as f64 / (width * height) as f64).sqrt();
+        Err(RenderError::TooManyPixels {
+            extent: self.extent,
+            limit,
+            largest: self.extent.map(|side| (f64::from(side) * share) as u32),
+        })
     }
 }
 

@@ -38,6 +38,20 @@ pub enum RenderError {
         /// Width and height of the renderer's images, pixels.
         held: [u32; 2],
     },
+    /// The pictures have more pixels than a buffer of the device has numbers.
+    #[error(
+        "a picture of {}x{} pixels needs more than the {limit} bytes of a buffer on this device; ask for a smaller --size: the largest \
+         of this shape is {}x{}",
+        extent[0], extent[1], largest[0], largest[1]
+    )]
+    TooManyPixels {
+        /// Width and height of a view, pixels.
+        extent: [u32; 2],
+        /// Bytes of one storage buffer binding.
+        limit: u64,
+        /// Largest width and height of a view in that shape, pixels.
+        largest: [u32; 2],
+    },
     /// Lanes were asked for that shader or device do not have.
     #[error(
         "{asked} lanes for a particle's {of}; take a power of two from {least} to {most}, or leave it to the program"

@@ -61,12 +61,13 @@ impl Renderer {
     /// and to another after [`Renderer::set_scene`].
     ///
     /// # Errors
-    /// [`RenderError::ViewCount`], [`RenderError::Lanes`]; [`RenderError::Gpu`] where the device
+    /// [`RenderError::ViewCount`], [`RenderError::TooManyPixels`], [`RenderError::Lanes`]; [`RenderError::Gpu`] where the device
     /// cannot have the images, [`RenderError::Shader`].
     pub fn new(gpu: &Gpu, library: &Library, desc: &RenderDesc) -> Result<Self, RenderError> {
         if !(1..=2).contains(&desc.views) {
             return Err(RenderError::ViewCount { views: desc.views });
         }
+        desc.check(gpu.info().limits.storage_bytes)?;
         // Checked without a liquid too, since its pipelines take the lanes.
         lanes::of_neighbours(gpu.info(), desc.lanes.neighbours)?;
         lanes::of_splats(gpu.info(), desc.lanes.pixels)?;

@@ -14,7 +14,7 @@ use vitriol_sim::world::World;
 use vitriol_sound::Listener;
 use vitriol_xr::Hand;
 
-use crate::failure::{Blame, Failure};
+use crate::failure::{Blame, Failure, blame_render};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
 use crate::marks::{Carriers, Marks};
@@ -164,7 +164,7 @@ impl Camera {
             foveated: shot.foveation.is_some(),
             ..RenderDesc::film(extent)
         };
-        let mut renderer = Renderer::new(gpu, library, &desc).other()?;
+        let mut renderer = Renderer::new(gpu, library, &desc).map_err(blame_render)?;
         let mut drawn = scene.clone();
         drawn.picture.room = shot.room.unwrap_or(scene.picture.room);
         renderer.set_scene(&laboratory(&drawn)).other()?;

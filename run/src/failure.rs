@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
+use vitriol_render::RenderError;
 use vitriol_sim::world::WorldError;
 
 /// Any error that can travel between threads.
@@ -80,6 +81,14 @@ impl<T, E: Into<Cause>> Blame<T> for Result<T, E> {
 pub(crate) fn blame_world(error: WorldError) -> Failure {
     match error {
         WorldError::Fill(_) => Failure::Input(error.into()),
+        _ => Failure::Other(error.into()),
+    }
+}
+
+/// Whose fault an error of drawing is.
+pub(crate) fn blame_render(error: RenderError) -> Failure {
+    match error {
+        RenderError::TooManyPixels { .. } => Failure::Input(error.into()),
         _ => Failure::Other(error.into()),
     }
 }

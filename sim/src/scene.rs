@@ -283,8 +283,9 @@ impl Scene {
             .map(|(index, entry)| entry.build(index, &scale, models_losses))
             .collect::<Result<Vec<_>, _>>()?;
         check_flasks(&flasks)?;
-        // The paper's liquids boil where the scene says.
-        let solutions = raw.physical.map(|_| SolutionTable::new());
+        // The paper's liquids boil where the scene says. Without heat they are water and acid as well, though nothing shows it.
+        let is_real = raw.physical.is_some() || raw.paper.is_none();
+        let solutions = is_real.then(SolutionTable::new);
         let liquids = (0..)
             .zip(raw.liquid)
             .map(|(index, entry)| entry.build(index, &scale, &flasks, solutions.as_ref()))

@@ -74,8 +74,9 @@ pub fn read<T: DeserializeOwned>(paths: &[PathBuf]) -> Result<Vec<(PathBuf, T)>,
             ))
             .input();
         }
-        let bytes = files::read(path, "report", LONGEST).map_err(|error| blame(error.into()))?;
-        let part = serde_json::from_slice(&bytes).map_err(|error| MergeError::NoReport {
+        let text =
+            files::read_text(path, "report", LONGEST).map_err(|error| blame(error.into()))?;
+        let part = serde_json::from_str(&text).map_err(|error| MergeError::NoReport {
             path: path.clone(),
             cause: error.to_string(),
         });

@@ -27,7 +27,10 @@ pub enum FileError {
         what: &'static str,
     },
     /// The file is neither UTF-8 nor UTF-16 with its mark.
-    #[error("{file}: is no text in UTF-8 or UTF-16; save it as UTF-8, or name another file", file = file.display())]
+    #[error(
+        "{file}: is no text in UTF-8, nor in UTF-16 with its byte order mark; save it as UTF-8, or name another file",
+        file = file.display()
+    )]
     NotText {
         /// The file.
         file: PathBuf,
@@ -118,12 +121,14 @@ fn decoded(bytes: &[u8]) -> Option<String> {
         let units: Vec<u16> = pairs.iter().map(|&pair| unit(pair)).collect();
         String::from_utf16(&units).ok().filter(|_| half.is_empty())
     };
-    match bytes {
+    let text = match bytes {
         [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes),
         [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8(rest.to_vec()).ok(),
         _ => String::from_utf8(bytes.to_vec()).ok(),
-    }
+    };
+    // No text has it; UTF-16 without its mark is UTF-8 of such, where it has only letters of ASCII.
+    text.filter(|text| !text.contains('\0'))
 }
 
 /// How alike a name is to what may be meant by it: clap's measure and bound for options and commands.
@@ -184,12 +189,14 @@ mod tests {
             assert_eq!(read_text(&file, "scene", 99).unwrap(), text);
             assert_eq!(read_line(&file, "token").unwrap(), "ä😀 b");
         }
-        // No UTF-8; half a unit; half of a surrogate's pair; UTF-16 without a mark, which could be any bytes.
+        // No UTF-8; half a unit; half of a surrogate's pair; UTF-16 without a mark, in both orders.
         for bytes in [
             &[0xff][..],
             &[0xff, 0xfe, b'a'],
             &[0xff, 0xfe, 0x3d, 0xd8],
             &[0xe4, 0, b'b', 0],
+            &[b'a', 0, b'b', 0],
+            &[0, b'a', 0, b'b'],
         ] {
             fs::write(&file, bytes).unwrap();
             let error = read_text(&file, "scene", 99).unwrap_err();

@@ -48,7 +48,7 @@ pub struct Track {
     /// For each frame the recorded `stage_from_flask` of each flask; empty where a frame recorded none. They are results of the
     /// simulation, kept for comparison and for viewers; a replay does not read them.
     pub stage_from_flasks: Vec<Vec<Pose>>,
-    /// Whether the file had no end, as after a crash, and was read up to its last whole chunk.
+    /// Whether the file had no end, as after a crash, and was read up to the last whole step of its whole chunks.
     pub recovered: bool,
     /// Results that its recorder wrote at the end, such as the final state's hash; empty where it wrote none.
     pub outcome: BTreeMap<String, String>,
@@ -74,6 +74,11 @@ impl Track {
         self.frames
             .last()
             .map_or(0.0, |frame| seconds(frame.time_ns))
+    }
+
+    /// Steps missing before its first frame, as in a file of which a part was cut out.
+    pub fn missing_first(&self) -> u64 {
+        self.frames.first().map_or(0, |frame| frame.step)
     }
 
     /// The gaps, in their order.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use vitriol_gpu::advice::DRIVER;
 use vitriol_gpu::vk::PhysicalDeviceType;
-use vitriol_run::{Failure, Format, emit};
+use vitriol_run::{Failure, Format, emit, in_a_line};
 
 /// Major version of Mesa from which on [`SLOW_MESA`] is not said.
 const QUICK_MESA: u32 = 25;
@@ -25,6 +25,9 @@ struct Findings {
     /// A screen is there for a window; absent where the build leaves sessions out.
     #[serde(skip_serializing_if = "Option::is_none")]
     screen: Option<bool>,
+    /// Absent where the build leaves sessions out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sound: Option<Sound>,
     devices: Vec<Device>,
     /// Absent where the build leaves OpenXR out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +56,21 @@ struct Device {
     #[serde(skip_serializing_if = "Option::is_none")]
     advice: Option<&'static str>,
     extensions: Vec<String>,
+}
+
+/// What `--sound` of a session may name.
+#[derive(Debug, Serialize)]
+struct Sound {
+    outputs: Vec<SoundOutput>,
+    /// Why they cannot be listed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cause: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct SoundOutput {
+    name: String,
+    description: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -119,6 +137,7 @@ fn look() -> Findings {
         can_replay,
         can_enter_vr,
         screen: screen(),
+        sound: sound(),
         devices,
         openxr,
         missing,
@@ -138,6 +157,29 @@ fn screen() -> Option<bool> {
     #[cfg(feature = "session")]
     return Some(vitriol_session::mirror::names_screen());
     #[cfg(not(feature = "session"))]
+    None
+}
+
+/// The sound outputs, found within two seconds, if the build has sessions.
+#[cfg(feature = "session")]
+fn sound() -> Option<Sound> {
+    let (outputs, cause) = match vitriol_sound::devices() {
+        Ok(outputs) => (outputs, None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
+    let outputs = outputs.into_iter().map(|output| SoundOutput {
+        name: output.name,
+        description: output.description,
+    });
+    Some(Sound {
+        outputs: outputs.collect(),
+        cause,
+    })
+}
+
+/// Nothing.
+#[cfg(not(feature = "session"))]
+fn sound() -> Option<Sound> {
     None
 }
 
@@ -211,6 +253,9 @@ fn describe(findings: &Findings) -> String {
         };
         let _ = writeln!(text, "{} screen{remedy}", mark(screen));
     }
+    if let Some(sound) = &findings.sound {
+        describe_sound(sound, &mut text);
+    }
     if !findings.missing.is_empty() {
         text.push_str("\nMissing:\n");
         for lack in &findings.missing {
@@ -236,6 +281,19 @@ fn describe_openxr(openxr: &OpenXr, text: &mut String) {
     );
     for extension in &openxr.extensions {
         let _ = writeln!(text, "      {} {}", mark(extension.present), extension.name);
+    }
+}
+
+fn describe_sound(sound: &Sound, text: &mut String) {
+    // Writing to a string cannot fail.
+    for SoundOutput { name, description } in &sound.outputs {
+        let (name, description) = (in_a_line(name), in_a_line(description));
+        let _ = writeln!(text, "[ok] sound output {name}: {description}");
+    }
+    if sound.outputs.is_empty() {
+        let cause = sound.cause.as_deref().map(in_a_line);
+        let cause = cause.as_deref().unwrap_or("the system has none");
+        let _ = writeln!(text, "[--] sound output: {cause}");
     }
 }
 
@@ -290,6 +348,30 @@ mod tests {
         }
     }
 
+    /// By name and description, as `--sound` takes both; or why there are none.
+    #[test]
+    fn sound_outputs_are_lines_of_their_own() {
+        let told = |outputs: &[(&str, &str)], cause: Option<&str>| {
+            let output = |&(name, description): &(&str, &str)| SoundOutput {
+                name: name.to_owned(),
+                description: description.to_owned(),
+            };
+            let sound = Sound {
+                outputs: outputs.iter().map(output).collect(),
+                cause: cause.map(str::to_owned),
+            };
+            let mut text = String::new();
+            describe_sound(&sound, &mut text);
+            text
+        };
+        assert_eq!(
+            told(&[("alsa.hdmi", "HDMI"), ("usb", "Head\nset")], None),
+            "[ok] sound output alsa.hdmi: HDMI\n[ok] sound output usb: Head\\nset\n"
+        );
+        assert_eq!(told(&[], Some("busy")), "[--] sound output: busy\n");
+        assert_eq!(told(&[], None), "[--] sound output: the system has none\n");
+    }
+
     /// The advice is one line below its device, and JSON has it too.
     #[test]
     fn advice_is_one_line_of_its_device() {
@@ -311,6 +393,7 @@ mod tests {
             can_replay: true,
             can_enter_vr: true,
             screen: None,
+            sound: None,
             devices: vec![device],
             openxr: None,
             missing: Vec::new(),

@@ -95,14 +95,17 @@ fn report(input: &str) -> Result<Option<Report>, Failure> {
     } else {
         return Ok(None);
     };
-    let bytes = files::read(&file, "report", REPORT).input()?;
+    let text = files::read_text(&file, "report", REPORT).input()?;
     // The layout first: another one may not even be read.
     #[derive(serde::Deserialize)]
     struct Layout {
         layout: Option<u32>,
     }
-    let wrong = |error| format!("{}: is no report of a run: {error}", file.display());
-    let layout: Layout = serde_json::from_slice(&bytes).map_err(wrong).input()?;
+    let wrong = |error| {
+        let file = file.display();
+        format!("{file}: is no report of a run: {error}; make it again with `vitriol replay`")
+    };
+    let layout: Layout = serde_json::from_str(&text).map_err(wrong).input()?;
     // Reports of the first one name none.
     let layout = layout.layout.unwrap_or(1);
     if layout != LAYOUT {
@@ -112,10 +115,7 @@ fn report(input: &str) -> Result<Option<Report>, Failure> {
         ))
         .input();
     }
-    serde_json::from_slice(&bytes)
-        .map(Some)
-        .map_err(wrong)
-        .input()
+    serde_json::from_str(&text).map(Some).map_err(wrong).input()
 }
 
 /// Tables of what a report has already.

@@ -51,7 +51,7 @@ const PAGE: &str = "grades.html";
 ///
 /// # Errors
 /// Before anything is read, [`Failure::Input`] for scene, files or folder. After all have been, what [`grade`] gives with the table,
-/// unless it is only that some files are bad: these fail the class where none is graded, or with `--strict`.
+/// unless it is only that some files are bad: these fail the class with `--strict`. Where none is graded it fails too.
 pub fn run(
     args: &GradeArgs,
     format: Format,
@@ -67,6 +67,10 @@ pub fn run(
             Ok(())
         }
         Some(failure) => Err(failure),
+        None if class.graded == 0 => {
+            let files = Words::of(args.language)?.grades.files;
+            Err(files.nothing.fill(&[])).input()
+        }
         None => Ok(()),
     }
 }

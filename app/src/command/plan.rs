@@ -157,16 +157,14 @@ impl ReplayPlan {
         let gpu = || device::open(ask.device);
         let chosen = budget::chosen(ask.solver, ask.budget_ms, &scene, gpu)?;
         let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
-        let span = Span::covering(
-            ask.seconds.unwrap_or_else(|| track.duration()),
-            scene.scale.frame_time,
-        );
-        if span.steps > limits::FRAMES as u64 {
+        let seconds = ask.seconds.unwrap_or_else(|| track.duration());
+        let (step, most) = (scene.scale.frame_time, limits::FRAMES);
+        let span = Span::covering(seconds, step);
+        if span.steps > most as u64 {
             return Err(format!(
-                "{} steps of {} s are more than a run of {} takes; give fewer --seconds",
-                span.steps,
-                scene.scale.frame_time,
-                limits::FRAMES
+                "{} s are more than a run of {most} steps of {step} s takes, which is {:.0} s; give less with --seconds or --at",
+                given(seconds),
+                most as f64 * step
             ))
             .input();
         }
@@ -199,11 +197,20 @@ impl ReplayPlan {
     pub fn reaches(&self, seconds: f64, whole: f64) -> Result<(), Failure> {
         if seconds > whole + self.scene.scale.frame_time {
             return Err(format!(
-                "the run ends at {whole:.3} s, before the first moment at {seconds} s; take an earlier one"
+                "the run ends at {whole:.3} s, before the first moment at {} s; take an earlier one",
+                given(seconds)
             ))
             .input();
         }
         Ok(())
+    }
+}
+
+/// Seconds as they were given, without hundreds of zeros.
+fn given(seconds: f64) -> String {
+    match seconds < 1e9 {
+        true => seconds.to_string(),
+        false => format!("{seconds:e}"),
     }
 }
 

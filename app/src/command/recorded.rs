@@ -21,7 +21,7 @@ pub fn whole(
     language: Language,
 ) -> Result<Track, Failure> {
     let texts = Texts::of(language)?.track;
-    let first = track.frames.first().map_or(0, |frame| frame.step);
+    let first = track.missing_first();
     if first > 0 {
         let template = match first {
             1 => &texts.no_first,

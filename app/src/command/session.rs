@@ -8,9 +8,11 @@ use std::sync::mpsc::Sender;
 
 use vitriol_gpu::{Gpu, Timestamps, vk};
 use vitriol_lesson::{Rubric, Texts};
-use vitriol_run::{Blame, Failure, Format, Scenes, emit};
+use vitriol_run::{Blame, Failure, Format, Scenes, emit, track};
 use vitriol_sim::scene::Preset;
 use vitriol_sound::Device;
+use vitriol_xr::files;
+use vitriol_xr::track::TrackError;
 
 use self::report::SessionReport;
 use crate::cli::SessionArgs;
@@ -35,16 +37,20 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Prepares a session with these options. The console's address goes to standard error, and so do the terminal's keys where
-    /// somebody can type.
+    /// Prepares a session with these options, whose recording must not be there. The console's address goes to standard error, and so do
+    /// the terminal's keys where somebody can type.
     ///
     /// # Errors
-    /// [`Failure::Input`] for a console or a class's file that cannot be had.
+    /// [`Failure::Input`] for a console or a class's file that cannot be had, or a recording that is there.
     pub fn new(
         args: &'a SessionArgs,
         format: Format,
         mut options: Options,
     ) -> Result<Self, Failure> {
+        if let Some(file) = args.record.clone().filter(|file| !files::is_absent(file)) {
+            return Err(track::blame(TrackError::Exists { file }));
+        }
+        let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
         let serving = match args.no_console {
             true => None,
             false => Some(Arc::new(Serving::begin(
@@ -57,7 +63,6 @@ impl<'a> Prepared<'a> {
             options.console = Some(serving.console().clone());
             serving.invite(format)?;
         }
-        let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
         if format == Format::Text && std::io::stdin().is_terminal() {
             let invites = !args.no_console && args.console.hub.is_none();
             let mode = options.course.as_ref().map(|it| it.mode);

@@ -27,6 +27,8 @@ struct TrackInfo {
     recovered: bool,
     /// Steps that are missing.
     missing_steps: u64,
+    /// Those of them that are missing before its first frame.
+    missing_first_steps: u64,
     program_version: String,
     parameters: BTreeMap<String, String>,
     /// Names of the scenes that it carries.
@@ -94,13 +96,16 @@ fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
 
 fn look_into(name: &str) -> Result<TrackInfo, Failure> {
     let track = track::load(name)?;
+    let missing_first_steps = track.missing_first();
+    let holes: u64 = track.holes().map(|hole| hole.steps).sum();
     Ok(TrackInfo {
         track: name.to_owned(),
         duration_s: track.duration(),
         frames: track.frames.len(),
         switches: track.frames.iter().map(|frame| frame.scenario.len()).sum(),
         recovered: track.recovered,
-        missing_steps: track.holes().map(|hole| hole.steps).sum(),
+        missing_steps: missing_first_steps + holes,
+        missing_first_steps,
         scenes: track.metadata.scenes.into_keys().collect(),
         outcome: track.outcome,
         scene: track.metadata.scene,
@@ -156,6 +161,13 @@ fn describe(info: &TrackInfo) -> String {
         1 => writeln!(text, "A step is missing."),
         steps => writeln!(text, "{} are missing.", count(steps, "step")),
     };
+    if info.missing_first_steps > 0 {
+        let _ = writeln!(
+            text,
+            "It begins at step {}, so that nothing of it can be replayed: it was cut or filtered; take the whole file, or record it again.",
+            info.missing_first_steps
+        );
+    }
     if info.recovered {
         text.push_str("The recording broke off; it was read as far as it goes.\n");
     }

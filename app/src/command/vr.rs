@@ -44,6 +44,13 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     if args.stand_in.is_none() {
         headset::check()?;
     }
+    // Likewise track and device of a stand-in.
+    let stand_in = args.stand_in.as_ref().map(|wearer| {
+        let track = whole(wearer, track::load(wearer)?, true, args.session.language)?;
+        let gpu = device::timed(args.device.as_deref(), timestamps)?;
+        Ok::<_, Failure>((track, gpu))
+    });
+    let stand_in = stand_in.transpose()?;
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
     let prepared = Prepared::new(&args.session, format, options)?;
     let watchers = match (prepared.serving(), args.watchers) {
@@ -64,10 +71,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         let outcome = session.run(headset)?;
         Ok((headset.name().to_owned(), outcome))
     };
-    let ((name, outcome), stand_in) = match &args.stand_in {
-        Some(wearer) => {
-            let track = whole(wearer, track::load(wearer)?, true, args.session.language)?;
-            let gpu = device::timed(args.device.as_deref(), timestamps)?;
+    let ((name, outcome), stand_in) = match stand_in {
+        Some((track, gpu)) => {
             if format == Format::Text {
                 let info = gpu.info();
                 let text = session::starting("the stand-in", &info.name, info.kind);

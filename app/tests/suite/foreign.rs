@@ -217,7 +217,10 @@ fn what_breaks_off_is_not_made_whole() {
     for (track, says) in [
         ("cut.mcap", "its recorder stopped hard"),
         ("saved.mcap", "its file had no end"),
-        ("late.mcap", "lacks its first step, so"),
+        (
+            "late.mcap",
+            "lacks its first step, so that nothing of it can be replayed: it was cut or filtered",
+        ),
     ] {
         for command in [
             &["replay", track, "--no-video"][..],
@@ -229,6 +232,17 @@ fn what_breaks_off_is_not_made_whole() {
             assert!(said.contains(says), "{command:?}: {said}");
         }
     }
+    // What looks into it says the same: of three steps, two are there.
+    let told = said(&VITRIOL.run(here, &["track", "late.mcap"]));
+    assert!(told.contains("2 frames"), "{told}");
+    assert!(
+        told.contains("A step is missing.\nIt begins at step 1,"),
+        "{told}"
+    );
+    let info = VITRIOL.run(here, &["track", "late.mcap", "--json"]);
+    let info: serde_json::Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert_eq!(info["missing_steps"], 1);
+    assert_eq!(info["missing_first_steps"], 1);
     let accepted = ["replay", "saved.mcap", "--no-video", "--accept-truncated"];
     assert!(VITRIOL.run(here, &accepted).status.success());
 }
@@ -242,7 +256,10 @@ fn a_run_has_an_end() {
     assert!(text.contains(from));
     for (time, says) in [
         ("1e-12", "scale.frame_time"),
-        ("1e-4", "more than a run of 1000000 takes"),
+        (
+            "1e-4",
+            "more than a run of 1000000 steps of 0.0001 s takes, which is 100 s",
+        ),
     ] {
         foreign(folder.path(), "x.mcap", |track| {
             track.metadata.scene = "x.toml".into();

@@ -166,12 +166,17 @@ fn another_scene_is_listed_and_never_graded() {
     // A scene of the teacher's own.
     let own = here.join("own.toml");
     fs::write(&own, &diluted.metadata.scenes[SCENE]).unwrap();
-    let output = VITRIOL.json(here, &["grade", ".", "--scene", "own.toml"]);
-    let told: serde_json::Value = serde_json::from_str(&output).unwrap();
+    let output = VITRIOL.run(here, &["grade", ".", "--scene", "own.toml", "--json"]);
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(
         (&told["graded"], &told["otherwise"]),
         (&0.into(), &7.into())
     );
+    // Nothing is graded then, which a script knows by the exit code.
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("nothing is graded"), "{said}");
+    assert!(said.contains("--scene"), "{said}");
 }
 
 /// What is there of the same track stays; a track that has changed, and what is no whole result, is made anew.

@@ -5,9 +5,12 @@ use crate::rig::{LEFT_QUARTER, Picture, Rig};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::Buffer;
 use vitriol_render::{
-    FrameDesc, ParticleSource, RenderError, SceneDesc, SteamSource, SurfaceFilter, VesselDesc, View,
+    FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, SteamSource,
+    SurfaceFilter, VesselDesc, View,
 };
+use vitriol_shaders::Library;
 use vitriol_shaders::layout::Puff;
+use vitriol_tests::gpu;
 
 const SMALL: [u32; 2] = [200, 150];
 /// Twice as large, so that a mask's pixels fall together; and larger by no whole factor, nor of whole tiles.
@@ -142,6 +145,35 @@ fn picture_larger_than_the_images_is_refused() {
         };
         let error = rig.refusal(&frame);
         assert!(matches!(error, RenderError::Extent { .. }), "{error}");
+    }
+}
+
+/// It was said of a buffer of the liquid's, with the advice to use fewer particles.
+#[test]
+fn a_picture_of_more_pixels_than_a_buffer_has_numbers_is_refused() {
+    let gpu = gpu::device();
+    // The Vulkan specification: no storage buffer's range is longer than this.
+    let limit = gpu.info().limits.storage_bytes;
+    let width = 16_384_u32;
+    let height = u32::try_from(limit / 4 / u64::from(width)).unwrap() + 1;
+    for (views, rows) in [(1, height), (2, height / 2 + 1)] {
+        let desc = RenderDesc {
+            views,
+            ..RenderDesc::film([width, rows])
+        };
+        let error = Renderer::new(&gpu, &Library::watching(), &desc)
+            .err()
+            .unwrap();
+        let said = error.to_string();
+        assert!(said.contains(&format!("{width}x{rows} pixels")), "{said}");
+        assert!(said.contains("--size"), "{said}");
+        let RenderError::TooManyPixels { largest, .. } = error else {
+            unreachable!("{error}")
+        };
+        let bytes = |[width, height]: [u32; 2]| 4 * u64::from(views * width) * u64::from(height);
+        assert!(bytes(largest) <= limit, "{largest:?}");
+        let larger = largest.map(|side| side + 1);
+        assert!(bytes(larger) > limit, "{larger:?}");
     }
 }
 

@@ -61,6 +61,8 @@ pub struct FilesTexts {
     pub passed_over: Template,
     /// Recordings that could not be read.
     pub bad: Template,
+    /// No recording is graded, though all could be read.
+    pub nothing: Template,
     /// The first few of several names.
     pub more: Template,
     /// Two recordings have one name.

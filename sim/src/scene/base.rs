@@ -20,8 +20,25 @@ pub(super) fn read(text: &str, file: &str) -> Result<SceneFile, SceneError> {
     };
     read.map_err(|error| SceneError::Syntax {
         file: file.to_owned(),
-        message: message(&error, text),
+        message: another_kind(text).map_or_else(|| message(&error, text), str::to_owned),
     })
+}
+
+/// Says of a text that is a lesson or a track which it is, by keys that files of the other kinds do not have.
+fn another_kind(text: &str) -> Option<&'static str> {
+    let table: Table = text.parse().ok()?;
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    if has(&["base", "scale", "solver", "flask", "liquid"]) {
+        None
+    } else if has(&["modes", "step", "rule", "texts"]) {
+        Some("is a lesson and no scene; `vitriol lesson FILE` shows it, and --lesson names it")
+    } else if has(&["duration", "head", "left", "right"]) {
+        Some(
+            "is a track and no scene; `vitriol track FILE` shows it, and `vitriol replay FILE` replays it",
+        )
+    } else {
+        None
+    }
 }
 
 /// The parser's message, or ours for a quote that is missing, with its line.

@@ -205,7 +205,7 @@ fn named(
 }
 
 impl LiquidEntry {
-    /// `solutions` are what the scene's chemistry has for liquids, if that is the physical one.
+    /// `solutions` are what the program has for liquids; `None` where the scene has the paper's chemistry.
     pub fn build(
         self,
         index: usize,
@@ -254,7 +254,7 @@ impl LiquidEntry {
             if celsius > most {
                 let problem = format!(
                     "{celsius} °C: liquid of this acid fraction boils at {boils:.0} °C and bears no superheat of more than \
-                     {MOST_SUPERHEAT} K in a flask, and the tables of [physical] end at {HOTTEST_LIQUID} °C; take {most} or less"
+                     {MOST_SUPERHEAT} K in a flask, and the tables of liquids end at {HOTTEST_LIQUID} °C; take {most} or less"
                 );
                 return Err(Problem::new(field("temperature"), problem));
             }

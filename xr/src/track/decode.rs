@@ -45,6 +45,11 @@ impl Partial {
         }
     }
 
+    /// Whether each message is in that a step must have; it may have switches besides.
+    pub fn is_complete(&self) -> bool {
+        self.transforms.is_some() && self.frame.is_some() && self.inputs.iter().all(Option::is_some)
+    }
+
     /// The frame, and its flasks, once all of its messages are in. `profiles` are those of the frame before,
     /// which most frames share.
     pub fn finish(

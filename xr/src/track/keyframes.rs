@@ -196,6 +196,23 @@ struct SwitchKey {
     value: String,
 }
 
+/// Says of a text that is a scene or a lesson which it is, by keys that files of the other kinds do not have.
+fn another_kind(text: &str) -> Option<&'static str> {
+    let table: toml::Table = text.parse().ok()?;
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    if has(&["duration", "head", "left", "right"]) {
+        None
+    } else if has(&["modes", "step", "rule", "texts"]) {
+        Some("is a lesson and no track; `vitriol lesson FILE` shows it, and --lesson names it")
+    } else if has(&["base", "scale", "model", "flask", "liquid"]) {
+        Some(
+            "is a scene and no track; name it with --scene, as in `vitriol replay TRACK --scene FILE`",
+        )
+    } else {
+        None
+    }
+}
+
 impl Keyframes {
     /// Reads a keyframe file.
     ///
@@ -216,7 +233,8 @@ impl Keyframes {
         let document: Document =
             toml::from_str(text).map_err(|error| TrackError::KeyframeSyntax {
                 file: file.into(),
-                message: error.to_string().trim_end().into(),
+                message: another_kind(text)
+                    .map_or_else(|| error.to_string().trim_end().to_owned(), str::to_owned),
             })?;
         let reader = Reader {
             text,

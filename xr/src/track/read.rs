@@ -3,8 +3,8 @@
 //! One pass over the records, with every checksum verified, rather than the summary first and the messages by index: the summary is
 //! written last, so that a recording that crashed has none, and a pass that must work without it works with it too. The magic number at
 //! the file's end distinguishes a crash from damage. Where it is, the file was finished, and any record that is short or fails its
-//! checksum is damage. Where it is not, the recording was cut off, and all whole chunks before the cut count; unless it has an end
-//! further ahead, behind which there are other bytes.
+//! checksum is damage. Where it is not, the recording was cut off, and all whole steps of whole chunks before the cut count; unless it
+//! has an end further ahead, behind which there are other bytes.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -34,7 +34,7 @@ const NAME: usize = 40;
 impl Track {
     /// Reads a whole track from an MCAP file and checks every frame of it.
     ///
-    /// A file without an end, as a crash leaves it, is read up to its last whole chunk and
+    /// A file without an end, as a crash leaves it, is read up to the last whole step of its whole chunks and
     /// marked [`recovered`](Track::recovered).
     ///
     /// # Errors
@@ -330,6 +330,10 @@ impl<'a> Reading<'a> {
     }
 
     fn finish(mut self, recovered: bool) -> Result<Track, TrackError> {
+        // Chunks of other programs end within a step, so that a file that was cut off there lacks its last step's other messages. Only
+        // switches, which come last, may be lost of a step that is kept.
+        let is_whole = |(_, _, partial): &(u64, i64, Partial)| partial.is_complete();
+        self.partial = self.partial.take().filter(|it| !recovered || is_whole(it));
         self.end_frame()?;
         if recovered && self.track.frames.is_empty() {
             return Err(self.damaged("it is empty, or broke off before its first frame"));

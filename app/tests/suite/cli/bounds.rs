@@ -87,6 +87,21 @@ fn a_number_that_is_too_large_is_answered_with_its_bound() {
     );
 }
 
+/// It was said of 18446744073709551615 steps. A million steps of 1/90 s are 11,111 s.
+#[test]
+fn a_run_that_is_too_long_is_answered_with_what_was_given() {
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "replay two-flasks --no-video --seconds 1e300",
+        "export two-flasks --format vtk --at 1e300",
+    ] {
+        let parts = ["1e300 s", "which is 11111 s", "--seconds or --at"];
+        refuses(folder.path(), &words(line), 2, &parts);
+    }
+    let late = "picture two-flasks -o x.png --at 1e300";
+    refuses(folder.path(), &words(late), 2, &["ends at 9.6", "1e300 s"]);
+}
+
 /// It was simulated for minutes, with hands that stood still.
 #[test]
 fn a_picture_is_of_a_moment_within_its_track() {
@@ -127,6 +142,27 @@ fn a_misspelt_name_is_answered_with_the_one_that_is_meant() {
         ("lesson examinaton", "did you mean examination?"),
     ] {
         refuses(folder.path(), &words(line), 2, &[meant]);
+    }
+}
+
+/// The console's address came first, of a session that never began.
+#[test]
+fn a_session_that_cannot_begin_prints_no_address() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("there.mcap"), "").unwrap();
+    for (line, cause) in [
+        ("vr --stand-in two-flask", "did you mean two-flasks?"),
+        ("vr --stand-in two-flasks --device nowhere", "nowhere"),
+        (
+            "vr --stand-in two-flasks --record there.mcap",
+            "there.mcap: exists",
+        ),
+    ] {
+        refuses(here, &words(line), 2, &[cause]);
+        let output = VITRIOL.run(here, &words(line));
+        let said = text(&output.stderr);
+        assert!(said.starts_with("vitriol: "), "{line}: {said}");
     }
 }
 

@@ -76,6 +76,23 @@ fn doctor_says_whether_there_is_a_screen() {
     }
 }
 
+/// What `--sound` may name, or why nothing can be; without a server it answers as well.
+#[cfg(target_os = "linux")]
+#[test]
+fn doctor_lists_sound_outputs() {
+    let folder = tempfile::tempdir().unwrap();
+    let nowhere = format!("unix:{}", folder.path().join("no-server").display());
+    let mut doctor = std::process::Command::new(env!("CARGO_BIN_EXE_vitriol"));
+    doctor
+        .args(["doctor", "--json"])
+        .env("PULSE_SERVER", nowhere);
+    let found: serde_json::Value =
+        serde_json::from_slice(&doctor.output().unwrap().stdout).unwrap();
+    assert_eq!(found["sound"]["outputs"], serde_json::json!([]));
+    let cause = found["sound"]["cause"].as_str().unwrap();
+    assert!(cause.contains("sound server"), "{cause}");
+}
+
 #[test]
 fn doctor_says_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();

@@ -12,6 +12,8 @@ fn what_cannot_be_exported_is_refused() {
     fs::create_dir(here.join("empty")).unwrap();
     fs::create_dir(here.join("odd")).unwrap();
     fs::write(here.join("odd/report.json"), "{}").unwrap();
+    fs::create_dir(here.join("broken")).unwrap();
+    fs::write(here.join("broken/report.json"), "{\"layout\": ").unwrap();
     fs::create_dir(here.join("later")).unwrap();
     fs::write(here.join("later/report.json"), "{\"layout\": 2}").unwrap();
     // A report from anyone does not make the program open a file: neither its text nor whether it is there is told.
@@ -27,6 +29,10 @@ fn what_cannot_be_exported_is_refused() {
         ("export hands-off --format stl", "vtk"),
         ("export empty --format csv", "report.json"),
         ("export odd --format csv", "no report"),
+        (
+            "export broken --format csv",
+            "make it again with `vitriol replay`",
+        ),
         ("export later --format csv", "the layout 2"),
         ("export theirs --format vtk", "name it with --scene"),
         (

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 use vitriol_sim::scene::{Preset, Scene};
+use vitriol_tests::editors::encodings;
 use vitriol_tests::program::words;
 
 use crate::export::{number, object};
@@ -29,7 +30,20 @@ fn tables_of_a_run_are_its_report() {
         read("tables/measurements.csv"),
         read("simulated/measurements.csv")
     );
-    let report: Value = serde_json::from_str(&read("run/report.json")).unwrap();
+    // As `>` in PowerShell and Windows' editors write it.
+    let plain = read("run/report.json");
+    for (number, bytes) in encodings(&plain).into_iter().enumerate() {
+        fs::write(here.join("run/report.json"), bytes).unwrap();
+        object(
+            here,
+            &format!("export run --format csv --out again-{number}"),
+        );
+        assert_eq!(
+            read(&format!("again-{number}/measurements.csv")),
+            read("tables/measurements.csv")
+        );
+    }
+    let report: Value = serde_json::from_str(&plain).unwrap();
     let last = report["series"].as_array().unwrap().last().unwrap();
     let table = read("tables/measurements.csv");
     let row: Vec<&str> = table.lines().last().unwrap().split(',').collect();

@@ -143,6 +143,7 @@ impl Lesson {
         facts: impl FnOnce(&str) -> Result<Option<SceneFacts>, String>,
     ) -> Result<Self, LessonError> {
         let mut source = Source::new(text, file, FaultTexts::of(language)?)?;
+        source.check_kind()?;
         let mut raw = read(&mut source);
         let own = source.has("texts");
         if !own && Self::builtin_text(&raw.name).is_some() {

@@ -8,10 +8,18 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use vitriol_sim::scene::missing_quote;
 
 use super::error::{Fault, LessonError, Problems};
-use crate::texts::FaultTexts;
+use crate::texts::{FaultTexts, Template};
 
 /// Most faults that are told: a file with more is no lesson.
 const MOST_FAULTS: usize = 100;
+
+/// Most places that are no TOML in a file that is a lesson even if it has few lines. Our choice.
+const FEW: usize = 3;
+
+/// Keys of a lesson, of a scene and of a track that files of the other kinds do not have.
+const OF_LESSON: [&str; 5] = ["version", "modes", "step", "rule", "texts"];
+const OF_SCENE: [&str; 6] = ["base", "scale", "solver", "model", "flask", "liquid"];
+const OF_TRACK: [&str; 4] = ["duration", "head", "left", "right"];
 
 /// A lesson's file, and the faults that were found in it so far.
 pub(super) struct Source<'t> {
@@ -30,7 +38,7 @@ impl<'t> Source<'t> {
     /// Parses the TOML; `file` is the name in messages.
     ///
     /// # Errors
-    /// [`LessonError::Faulty`] with each place that is no TOML. Nothing else is looked for then, because what stands behind such a place
+    /// [`LessonError::Faulty`] with each place that is no TOML, or one fault where most lines are not. Nothing else is looked for then, because what stands behind such a place
     /// may not be what was meant.
     pub fn new(text: &'t str, file: &'t str, texts: FaultTexts) -> Result<Self, LessonError> {
         let (root, errors) = DeTable::parse_recoverable(text);
@@ -59,6 +67,11 @@ impl<'t> Source<'t> {
             .collect();
         found.sort_by_key(|&(at, follows, _)| (source.line(at), follows));
         found.dedup_by_key(|&mut (at, ..)| source.line(at));
+        let filled = text.lines().map(str::trim_start);
+        let filled = filled.filter(|line| !line.is_empty() && !line.starts_with('#'));
+        if found.len() > FEW && 2 * found.len() > filled.count() {
+            return Err(source.refused_as_a_whole(|texts| &texts.no_lesson));
+        }
         for (at, _, problem) in found {
             source.fault(at, "", &problem);
         }
@@ -66,6 +79,36 @@ impl<'t> Source<'t> {
             Ok(source)
         } else {
             Err(source.into_error())
+        }
+    }
+
+    /// Refuses a file that is a scene or a track.
+    ///
+    /// # Errors
+    /// [`LessonError::Faulty`] with one fault, which names the kind of the file.
+    pub fn check_kind(&self) -> Result<(), LessonError> {
+        let has = |keys: &[&str]| keys.iter().any(|key| self.has(key));
+        if has(&OF_LESSON) {
+            return Ok(());
+        }
+        if has(&OF_SCENE) {
+            return Err(self.refused_as_a_whole(|texts| &texts.a_scene));
+        }
+        if has(&OF_TRACK) {
+            return Err(self.refused_as_a_whole(|texts| &texts.a_track));
+        }
+        Ok(())
+    }
+
+    /// One fault in place of all others, which follow from it; it is of no line.
+    fn refused_as_a_whole(&self, template: fn(&FaultTexts) -> &Template) -> LessonError {
+        LessonError::Faulty {
+            file: self.file.to_owned(),
+            faults: vec![Fault {
+                line: 1,
+                field: String::new(),
+                text: template(&self.texts).text(),
+            }],
         }
     }
 

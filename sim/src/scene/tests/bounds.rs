@@ -68,8 +68,6 @@ fn of_any_scene() {
                 "flask[1].rotation", "from −360 to 360 (degrees)";
             "wall = 0.002" => "wall = 0.002\ndensity = @": "1.0", "25000.0"; not "0.9", "25001.0":
                 "flask[1].density", "from 1 to 25000 (kg/m³)";
-            "temperature = 20.0" => "temperature = @": "-273.1", "1e6"; not "-273.2", "1.1e6":
-                "liquid[0].temperature", "up to 1000000 (°C)";
             "[floor]" => "[table]\ntop = 0.4\ncentre = [0.0, 0.0]\nsize = [1.0, @]\n[floor]": "0.1", "1000.0"; not "0.0", "1000.1":
                 "table.size", "up to 1000 (metres)";
             "[floor]" => "[[tool]]\nkind = \"rod\"\nposition = [0.0, 0.8, 0.0]\nyaw = @\n[floor]": "-360.0", "360.0"; not "-360.1", "360.1":
@@ -109,6 +107,8 @@ fn of_the_papers_chemistry() {
     check(
         Scene::builtin_text("single-dilution").unwrap(),
         cases! {
+            "\ntemperature = 20.0" => "\ntemperature = @": "-273.1", "1e6"; not "-273.2", "1.1e6":
+                "liquid[0].temperature", "up to 1000000 (°C)";
             "T_a = 20.0" => "T_a = @": "-273.1", "1e6"; not "-273.2", "1.1e6": "paper.T_a", "up to 1000000 (°C)";
             "T_B = 100.0" => "T_B = @": "0.1", "1e6"; not "0.0", "1.1e6": "paper.T_B", "up to 1000000 (°C";
             "\nk_d = 0.017" => "\nk_d = @": "0.0", "1000.0"; not "-0.1", "1001.0": "paper.k_d", "from 0 to 1000 (K/cal)";

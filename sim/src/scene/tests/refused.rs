@@ -24,6 +24,26 @@ macro_rules! cases {
     };
 }
 
+/// It was told of a key that scenes do not have.
+#[test]
+fn a_lesson_and_a_track_are_told_from_a_scene() {
+    for (text, parts) in [
+        (
+            include_str!("../../../../run/lesson/lessons/dilute.toml"),
+            [
+                "bad.toml: is a lesson and no scene",
+                "`vitriol lesson FILE`",
+            ],
+        ),
+        (
+            include_str!("../../../../xr/tracks/two-flasks.toml"),
+            ["bad.toml: is a track and no scene", "`vitriol replay FILE`"],
+        ),
+    ] {
+        assert_parts(&refusal(text), &parts);
+    }
+}
+
 #[test]
 fn malformed_scenes_name_file_field_and_remedy() {
     let cases = cases! {
@@ -88,13 +108,19 @@ fn missing_file_is_named_with_the_builtin_scenes() {
 }
 
 /// Water's own bound is not acid's: water of the films, at 112 °C, and hot acid are liquid, water of 250 °C is steam. Acid of 98 % boils at
-/// 333 °C (Perry), and the tables end at 340 °C.
+/// 333 °C (Perry), and the tables end at 340 °C. It is so in a scene without heat as well.
 #[test]
 fn a_liquid_is_no_hotter_than_it_stays_liquid() {
     let of = |celsius: f64, acid: f64| {
-        let hot = format!("temperature = {celsius:?}\nacid_fraction = {acid:?}\n[physical]\n");
-        let text = GOOD.replacen("temperature = 20.0\nacid_fraction = 0.0\n", &hot, 1);
-        Scene::parse(&text, "hot.toml").map(|scene| scene.liquids[0].temperature)
+        let hot = format!("temperature = {celsius:?}\nacid_fraction = {acid:?}\n");
+        let [without, with] = ["", "[physical]\n"].map(|chemistry| {
+            let hot = format!("{hot}{chemistry}");
+            let text = GOOD.replacen("temperature = 20.0\nacid_fraction = 0.0\n", &hot, 1);
+            let scene = Scene::parse(&text, "hot.toml");
+            scene.map(|scene| scene.liquids[0].temperature)
+        });
+        assert_eq!(with, without);
+        with
     };
     for (celsius, acid) in [(112.0, 0.0), (140.0, 0.0), (150.0, 0.98), (340.0, 0.98)] {
         assert_eq!(of(celsius, acid), Ok(celsius), "acid {acid}");

@@ -1,7 +1,10 @@
 //! Truncated and bit-flipped files: an error or a recovery, never a panic, never a wrong pose.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use mcap::records::op;
+use mcap::{Compression, MAGIC, MessageStream, WriteOptions};
 use proptest::prelude::*;
 use vitriol_xr::track::{Track, TrackError};
 
@@ -51,6 +54,67 @@ fn cut_anywhere_it_is_recovered_up_to_the_cut_or_refused() {
     }
     assert!(recovered > 100, "{recovered}");
     assert_eq!(last, whole.frames.len(), "without its index it is whole");
+}
+
+/// Where each chunk ends: a record is its kind, its length in eight bytes, and its content (the MCAP specification, "Records").
+fn ends_of_chunks(file: &[u8]) -> Vec<usize> {
+    let (mut at, mut ends) = (MAGIC.len(), Vec::new());
+    while at + 9 <= file.len() - MAGIC.len() {
+        let length = u64::from_le_bytes(file[at + 1..at + 9].try_into().unwrap());
+        let is_chunk = file[at] == op::CHUNK;
+        at += 9 + length as usize;
+        if is_chunk {
+            ends.push(at);
+        }
+    }
+    ends
+}
+
+/// The steps in the beginning of a file by the container's own library: how many have all that a step must have, and whether another has
+/// less.
+fn steps_in(cut: &[u8]) -> (usize, bool) {
+    let options = mcap::read::Options::IgnoreEndMagic.into();
+    let messages = MessageStream::new_with_options(cut, options).unwrap();
+    let mut topics: BTreeMap<u32, BTreeSet<String>> = BTreeMap::new();
+    for message in messages.map_while(Result::ok) {
+        let of_step = topics.entry(message.sequence).or_default();
+        of_step.insert(message.channel.topic.clone());
+    }
+    let all = ["/tf", "/xr/frame", "/xr/input/left", "/xr/input/right"];
+    let whole = topics.values();
+    let whole = whole.filter(|of_step| all.iter().all(|topic| of_step.contains(*topic)));
+    let count = whole.count();
+    (count, count < topics.len())
+}
+
+/// Other programs end a chunk where it is full, and a step may lie in two. What was cut off there was told to be sorted by time.
+#[test]
+fn cut_between_chunks_it_is_recovered_up_to_the_last_whole_step() {
+    let whole = super::track(FRAMES);
+    let ours = super::bytes(&whole);
+    for compression in [Some(Compression::Lz4), None] {
+        let small = WriteOptions::new().chunk_size(Some(2000));
+        let bytes = super::copied(small.compression(compression), &[super::OWN], &ours);
+        assert_eq!(parse(&bytes).unwrap().frames, whole.frames);
+        let mut within_a_step = 0;
+        for end in ends_of_chunks(&bytes) {
+            let (steps, is_divided) = steps_in(&bytes[..end]);
+            let read = match parse(&bytes[..end]) {
+                Ok(read) => read,
+                Err(error) => {
+                    assert_eq!(steps, 0, "{error}");
+                    continue;
+                }
+            };
+            assert!(read.recovered);
+            assert_eq!(read.frames.len(), steps);
+            // The last step's switches may lie in the chunk that is missing.
+            let before = steps - 1;
+            assert_eq!(read.frames[..before], whole.frames[..before]);
+            within_a_step += usize::from(is_divided);
+        }
+        assert!(within_a_step > 10, "{within_a_step}");
+    }
 }
 
 #[test]

@@ -53,6 +53,29 @@ fn grip(keyframes: &Keyframes, t: f64) -> Pose {
     keyframes.sample(0, t).hand(Side::Right).stage_from_grip
 }
 
+/// It was told of a key that tracks do not have.
+#[test]
+fn a_scene_and_a_lesson_are_told_from_a_track() {
+    for (text, parts) in [
+        (
+            include_str!("../../../../sim/scenes/two-flasks.toml"),
+            ["test.toml: is a scene and no track", "--scene FILE"],
+        ),
+        (
+            include_str!("../../../../run/lesson/lessons/dilute.toml"),
+            [
+                "test.toml: is a lesson and no track",
+                "`vitriol lesson FILE`",
+            ],
+        ),
+    ] {
+        let said = parse(text).err().unwrap().to_string();
+        for part in parts {
+            assert!(said.contains(part), "{said}");
+        }
+    }
+}
+
 #[test]
 fn keyframes_are_hit_exactly() {
     let keyframes = parse(TEXT).unwrap();

@@ -6,6 +6,7 @@ use super::fits::facts;
 use super::spoiled::GOOD;
 use super::*;
 use crate::Language;
+use vitriol_sim::scene::Scene;
 
 /// The faults of a text, whose scene has these facts.
 fn faults(text: &str) -> Vec<Fault> {
@@ -274,6 +275,44 @@ fn faults_are_told_in_each_language() {
             assert!(!is_english(fault), "{fault}");
         }
     }
+}
+
+/// A file of another kind is refused in one sentence, in each language, and not by dozens of lines. The files are the program's own, and a
+/// page of its documentation.
+#[test]
+fn another_kind_of_file_is_one_fault() {
+    let page = include_str!("../../../../../docs/lesson.md");
+    let scene = Scene::builtin_text("two-flasks").unwrap();
+    let variant = "base = \"beaker\"\nname = \"own\"\n";
+    let track = include_str!("../../../../../xr/tracks/two-flasks.toml");
+    for (text, says) in [
+        (page, "another kind of file"),
+        (
+            "{\n\"a\": 1,\n\"b\": 2,\n\"c\": 3\n}\n",
+            "another kind of file",
+        ),
+        (scene, "is a scene and no lesson"),
+        (variant, "is a scene and no lesson"),
+        (track, "is a track and no lesson"),
+    ] {
+        let told = |language| {
+            let refused = Lesson::parse_for(text, ("bad.toml", language), |_| Ok(None));
+            refused.map(|_| ()).unwrap_err().to_string()
+        };
+        let english = told(Language::En);
+        assert!(english.starts_with("bad.toml: "), "{english}");
+        assert!(english.contains(says), "{english}");
+        for language in Language::ALL {
+            let said = told(language);
+            assert_eq!(said.lines().count(), 1, "{said}");
+            assert_eq!(marks(&said), marks(&english), "{said}");
+            assert_eq!(said.contains(says), language == Language::En, "{said}");
+        }
+    }
+    // Few mistakes in a short file are those of a lesson, each with its line.
+    let found = faults("name = own\nversion = 1 x\n");
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(found.iter().all(|it| it.text.contains("no TOML: ")));
 }
 
 /// The parser's own message stays as it is, behind a sentence that says what it is about.
