@@ -111,8 +111,10 @@ fn a_new_lesson_is_good_and_explained() {
         }
     }
     for wrong in ["", "My lesson", "../own", "dilute"] {
-        let error = Lesson::template(wrong, "dilute", Language::De).unwrap_err();
-        assert!(error.to_string().contains("a to z"), "{error}");
+        for (language, said) in [(Language::En, "a to z"), (Language::De, "a bis z")] {
+            let error = Lesson::template(wrong, "dilute", language).unwrap_err();
+            assert!(error.to_string().contains(said), "{error}");
+        }
     }
 }
 
