@@ -76,6 +76,11 @@ pub trait Experiment {
         None
     }
 
+    /// Events that would be found if the attempt ended now, beside [`Glimpse::events`].
+    fn so_far(&self) -> Vec<vitriol_lesson::Event> {
+        Vec::new()
+    }
+
     /// The outcome, and the device that it was found on.
     ///
     /// # Errors

@@ -438,6 +438,10 @@ impl Experiment for Laboratory {
         })
     }
 
+    fn so_far(&self) -> Vec<vitriol_lesson::Event> {
+        self.run.so_far()
+    }
+
     fn outcome(&mut self) -> Result<Outcome, Failure> {
         self.run.end_attempt()?;
         let measured = self.run.world.measure().map_err(blame_world)?;

@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 
 use vitriol_gpu::{QueueKind, Ticket};
-use vitriol_lesson::{Dipped, Event, Finder, Limits, Seen, Sight};
+use vitriol_lesson::{Dipped, Event, Finder, Limits, Seen, Sight, Stream};
 use vitriol_render::Bone;
 use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
@@ -150,6 +150,11 @@ impl Looks {
     /// What the thermometer shows, °C.
     pub fn thermometer(&self) -> f64 {
         self.thermometer.celsius()
+    }
+
+    /// The pour under way in the last observation that was collected.
+    pub fn pouring(&self) -> Option<Stream> {
+        self.finder.pouring()
     }
 
     /// Observations that are not collected yet.

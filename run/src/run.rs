@@ -137,6 +137,11 @@ impl Run {
         &self.marks
     }
 
+    /// The pour under way in the last observation, as events will tell of it.
+    pub fn pouring(&self) -> Option<lesson::Stream> {
+        self.looks.pouring()
+    }
+
     /// What the thermometer shows, °C.
     pub fn thermometer(&self) -> f64 {
         self.looks.thermometer()

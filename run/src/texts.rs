@@ -82,6 +82,7 @@ pub struct PanelTexts {
     /// State of a flask that broke.
     pub broken: String,
     acid: String,
+    poured: String,
     /// Name of water, beside its tint.
     pub water: String,
     /// Name of sulfuric acid, beside its tint.
@@ -189,6 +190,13 @@ impl PanelTexts {
     /// Acid by mass, whole per cent.
     pub fn acid(&self, per_cent: i32) -> String {
         self.acid.replace("{percent}", &per_cent.to_string())
+    }
+
+    /// A pour under way: mL so far, and mL/s now.
+    pub fn poured(&self, volume: &str, rate: &str) -> String {
+        self.poured
+            .replace("{volume}", volume)
+            .replace("{rate}", rate)
     }
 
     /// What a scene is, in the two lines of its button; of one without a text its name.

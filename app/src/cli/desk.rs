@@ -53,6 +53,17 @@ mod tests {
         }
     }
 
+    /// A recording is named for the grades with and without a console.
+    #[test]
+    fn a_session_without_a_console_has_a_name() {
+        let cli = Cli::try_parse_from(["vitriol", "desk", "--no-console", "--name", "Ada"]);
+        let name = match cli.unwrap().command {
+            Command::Desk(args) => args.session.console.name,
+            _ => None,
+        };
+        assert_eq!(name.as_deref(), Some("Ada"));
+    }
+
     #[test]
     fn a_field_of_view_has_bounds() {
         assert_eq!(fov(&[]), Ok(56.0));

@@ -61,8 +61,8 @@ pub struct SessionArgs {
     /// What is kept of a student
     #[command(flatten)]
     pub keep: KeepArgs,
-    /// No page for an instructor
-    #[arg(long, conflicts_with_all = ["listen", "hub", "name"])]
+    /// No page for an instructor; `--name` still names the student in a recording
+    #[arg(long, conflicts_with_all = ["listen", "hub"])]
     pub no_console: bool,
     /// Where an instructor directs it from
     #[command(flatten)]

@@ -3,7 +3,8 @@
 use std::sync::mpsc::channel;
 
 use vitriol_gpu::{Gpu, PlainLoader, vk};
-use vitriol_run::{Failure, Format, device};
+use vitriol_run::texts::Texts;
+use vitriol_run::{Blame, Failure, Format, device};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Headset;
 
@@ -44,6 +45,10 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
         toggles: shared.grip == Grip::Toggle,
     };
     let (desk, window) = desk::open(&gpu, spec, decisions.clone())?;
+    let titles = vitriol_lesson::Texts::of(options.language).other()?;
+    let scene = titles.scene(&options.plan.scene);
+    let coming = Texts::of(options.language)?.panel.coming(scene);
+    window.entitle(format!("Vitriol: {coming}"));
     let opened = gpu.options().clone();
     let mut desk = desk.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
     let prepared = Prepared::new(shared, format, options)?;

@@ -87,7 +87,7 @@ fn describe(report: &HubReport, qr: Option<String>) -> String {
     }
     if let Some(students) = &report.students {
         text += &format!(
-            "students' programs: keep the next line in a file, for vitriol vr --hub FILE\n{students}\n"
+            "students' programs: keep the next line in a file, for vitriol vr --hub FILE or vitriol desk --hub FILE\n{students}\n"
         );
     }
     text + "Enter lets another browser in, Ctrl-C ends."

@@ -17,8 +17,8 @@ pub struct ConsoleArgs {
     /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
     #[arg(long, value_name = "HUB", value_parser = hub_address)]
     pub hub: Option<HubAddress>,
-    /// This student's name, on the console, in a recording of `vitriol vr` without a pseudonym, and so in grades; without it
-    /// the console shows the computer's name
+    /// This student's name, on the console, in a recording of `vitriol vr` or `vitriol desk` without a pseudonym, and so in
+    /// grades; without it the console shows the computer's name
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
 }

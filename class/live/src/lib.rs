@@ -11,5 +11,5 @@ pub use args::ConsoleArgs;
 pub use coder::{CLOSE_UP_EVERY, Coder, RawPicture, VIEW_FPS, VIEW_SIDE, Viewpoint};
 pub use replayed::Live;
 pub use serve::{Console, Serving, invitation, listen_address, start, student};
-pub use told::{Attempts, attempts, readings};
+pub use told::{Attempts, Evaluation, readings};
 pub use watchers::{WatchReport, Watchers};

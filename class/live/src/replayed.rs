@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Order, State, Text};
-use vitriol_lesson::{Rubric, Texts};
+use vitriol_lesson::{Event, Rubric, Texts};
 use vitriol_render::PassPicture;
 use vitriol_run::{
     Action, Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Judging, Outcome, Sample,
@@ -13,7 +13,7 @@ use vitriol_xr::PoseFrame;
 
 use super::coder::{CLOSE_UP_EVERY, Coder, RawPicture, Viewpoint};
 use super::serve::Console;
-use super::told::{Attempts, attempts, readings};
+use super::told::{Evaluation, readings};
 
 /// Time between two looks for orders while time is held.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -39,8 +39,7 @@ pub struct Live {
     took: f64,
     /// When the glass was drawn from close by last.
     close_up: Option<Instant>,
-    /// The number of events that were evaluated, and the attempts in them.
-    attempts: (usize, Attempts),
+    evaluation: Evaluation,
 }
 
 impl Live {
@@ -67,7 +66,7 @@ impl Live {
             due: None,
             took: 0.0,
             close_up: None,
-            attempts: (0, Attempts::default()),
+            evaluation: Evaluation::default(),
         };
         live.name_flasks();
         Ok(live)
@@ -144,10 +143,9 @@ impl Live {
         let Some(glimpse) = self.inner.glimpse() else {
             return;
         };
-        if self.attempts.0 != glimpse.events.len() {
-            let attempts = attempts(glimpse.events, &self.texts, &self.rubric);
-            self.attempts = (glimpse.events.len(), attempts);
-        }
+        let of = (&self.texts, &self.rubric);
+        self.evaluation
+            .follow(glimpse.events, || self.inner.so_far(), of);
         let state = self.state(&glimpse);
         self.console.port.publish(state);
     }
@@ -167,7 +165,7 @@ impl Live {
                 _ => {}
             }
         }
-        let attempts = &self.attempts.1;
+        let attempts = self.evaluation.attempts();
         State {
             frame: self.time.steps(),
             time_s: Some(self.time.seconds()),
@@ -255,6 +253,10 @@ impl Experiment for Live {
 
     fn glimpse(&self) -> Option<Glimpse<'_>> {
         self.inner.glimpse()
+    }
+
+    fn so_far(&self) -> Vec<Event> {
+        self.inner.so_far()
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {

@@ -1,12 +1,16 @@
 //! The state of a run's liquid and its incidents, as they are sent to the console.
 
+use std::time::{Duration, Instant};
+
 use vitriol_console::{Flask, Incident, List, Points, Readings, Text};
-use vitriol_lesson::{Attempt, Event, Rubric, Score, Texts, What};
+use vitriol_lesson::{Attempt, Event, Incident as Found, Rubric, Score, Texts, What};
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Held;
 
 /// Most incidents that are sent.
 const MOST: usize = 32;
+/// Time between two looks for incidents that are under way. Our choice: an amount is seen to grow, and few frames have a look.
+const LOOK: Duration = Duration::from_millis(250);
 
 /// The attempts of a run, as the console shows them.
 #[derive(Clone, Debug, Default)]
@@ -26,9 +30,64 @@ pub struct Attempts {
     pub grave_so_far: u32,
 }
 
-/// The attempts in these events, the present one scored by `rubric`.
-pub fn attempts(events: &[Event], texts: &Texts, rubric: &Rubric) -> Attempts {
-    let attempts = Attempt::all(events.iter().cloned());
+/// Evaluates the events of a run that goes on.
+#[derive(Clone, Debug, Default)]
+pub struct Evaluation {
+    /// The number of events that were evaluated.
+    events: usize,
+    /// Incidents that were under way at the last look.
+    under_way: Vec<Found>,
+    looked: Option<Instant>,
+    attempts: Attempts,
+}
+
+impl Evaluation {
+    /// The attempts as they were evaluated last.
+    pub fn attempts(&self) -> &Attempts {
+        &self.attempts
+    }
+
+    /// Evaluates the events anew where there are more of them, or where what is under way has changed. An event is emitted when it is over:
+    /// `so_far` gives those that there would be if the attempt ended now.
+    pub fn follow(
+        &mut self,
+        events: &[Event],
+        so_far: impl FnOnce() -> Vec<Event>,
+        (texts, rubric): (&Texts, &Rubric),
+    ) {
+        let now = Instant::now();
+        let is_new = self.events != events.len();
+        let waits = self
+            .looked
+            .is_some_and(|last| now.duration_since(last) < LOOK);
+        // What is over must not be listed as under way too.
+        if !is_new && waits {
+            return;
+        }
+        self.looked = Some(now);
+        let found = so_far().into_iter().filter_map(|event| match event {
+            Event::Incident(incident) => Some(incident),
+            _ => None,
+        });
+        let under_way: Vec<Found> = found.collect();
+        if is_new || under_way != self.under_way {
+            self.events = events.len();
+            self.attempts = attempts(events, &under_way, texts, rubric);
+            self.under_way = under_way;
+        }
+    }
+}
+
+/// The attempts in these events, the present one scored by `rubric`. Incidents that are under way are listed with what has come of them so
+/// far; points are for what is over.
+fn attempts(events: &[Event], under_way: &[Found], texts: &Texts, rubric: &Rubric) -> Attempts {
+    let mut attempts = Attempt::all(events.iter().cloned());
+    let score = attempts.last().map(|it| Score::of(it, rubric, texts));
+    let score = score.filter(|score| score.of > 0);
+    if let Some(present) = attempts.last_mut() {
+        present.incidents.extend_from_slice(under_way);
+        (present.incidents).sort_by(|one, other| one.t_s.total_cmp(&other.t_s));
+    }
     let of = |(number, attempt): (u32, &Attempt)| -> Vec<_> {
         let incidents = attempt.incidents.iter();
         incidents
@@ -48,8 +107,6 @@ pub fn attempts(events: &[Event], texts: &Texts, rubric: &Rubric) -> Attempts {
     let present = attempts.len() as u32;
     let so_far = incidents.len() as u32;
     let grave_so_far = incidents.iter().filter(|it| it.grave).count() as u32;
-    let score = attempts.last().map(|it| Score::of(it, rubric, texts));
-    let score = score.filter(|score| score.of > 0);
     let mut over = incidents.len().saturating_sub(MOST);
     for matters in [false, true] {
         incidents.retain(|it| {
@@ -107,27 +164,93 @@ pub fn readings(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_lesson::{Cause, Contents, Glassware, Incident as Found};
+    use vitriol_lesson::{Cause, Contents, Glassware, Surface};
+
+    fn begun(t_s: f64, scene: &str) -> Event {
+        Event::Begun {
+            t_s,
+            scene: scene.to_owned(),
+            contents: Contents::new(),
+            glass: Glassware::default(),
+        }
+    }
+
+    fn found(t_s: f64, what: What) -> Event {
+        Event::Incident(Found {
+            t_s,
+            until_s: t_s,
+            what,
+            cause: Cause::Unknown,
+            place_m: [0.0; 3],
+        })
+    }
+
+    /// A spill is listed from its beginning on, its amount grows, and when it is over it is listed once. It takes no points before.
+    #[test]
+    fn a_spill_under_way_is_listed() {
+        let (texts, rubric) = (Texts::english().unwrap(), Rubric::default());
+        let spilt = |ml: f64| {
+            let what = What::Spilt {
+                surface: Surface::Bench,
+                volume_m3: 1e-6 * ml,
+                acid: 0.98,
+            };
+            found(3.0, what)
+        };
+        let mut events = vec![begun(0.0, "acid-into-water")];
+        let mut evaluation = Evaluation::default();
+        let mut listed = |events: &[Event], so_far: Vec<Event>| {
+            // However soon it is asked again.
+            evaluation.looked = None;
+            evaluation.follow(events, || so_far, (&texts, &rubric));
+            let told = evaluation.attempts();
+            assert_eq!(told.of_present as usize, told.incidents.len());
+            let all = told.incidents.iter();
+            let all: Vec<_> = all.map(|it| it.text.replace('\u{a0}', " ")).collect();
+            (all.concat(), told.points)
+        };
+        let (none, before) = listed(&events, Vec::new());
+        assert_eq!(none, "");
+        assert_eq!(
+            listed(&events, vec![spilt(6.4)]),
+            (
+                "Spilt on the bench: 6.4 mL of 98 % acid.".to_owned(),
+                before
+            )
+        );
+        let (more, points) = listed(&events, vec![spilt(13.4)]);
+        assert_eq!(
+            (&*more, points),
+            ("Spilt on the bench: 13 mL of 98 % acid.", before)
+        );
+        events.push(spilt(14.0));
+        let (over, after) = listed(&events, Vec::new());
+        assert_eq!(over, "Spilt on the bench: 14 mL of 98 % acid.");
+        assert_ne!(after, before);
+    }
+
+    /// A new event is taken in at once: what was under way would else be listed beside it.
+    #[test]
+    fn what_is_over_is_listed_once() {
+        let texts = (&Texts::english().unwrap(), &Rubric::default());
+        let what = || What::Dropped {
+            flask: "source".to_owned(),
+            speed_m_s: 2.0,
+            broke: false,
+        };
+        let mut events = vec![begun(0.0, "acid-into-water")];
+        let mut evaluation = Evaluation::default();
+        evaluation.follow(&events, || vec![found(1.0, what())], texts);
+        assert_eq!(evaluation.attempts().of_present, 1);
+        events.push(found(1.0, what()));
+        evaluation.follow(&events, Vec::new, texts);
+        assert_eq!(evaluation.attempts().of_present, 1);
+    }
 
     /// What went wrong in an attempt is told as that attempt's, and the present one counts its own alone. All are counted, and a grave one
     /// of the present attempt stays in the list after more others than fit.
     #[test]
     fn incidents_are_of_their_attempts() {
-        let begun = |t_s, scene: &str| Event::Begun {
-            t_s,
-            scene: scene.to_owned(),
-            contents: Contents::new(),
-            glass: Glassware::default(),
-        };
-        let found = |t_s, what| {
-            Event::Incident(Found {
-                t_s,
-                until_s: t_s,
-                what,
-                cause: Cause::Unknown,
-                place_m: [0.0; 3],
-            })
-        };
         let dropped = |t_s| {
             let what = What::Dropped {
                 flask: "source".to_owned(),
@@ -148,7 +271,7 @@ mod tests {
         let mut events = vec![begun(0.0, "water-into-acid")];
         events.extend((1..=40).map(|t| dropped(f64::from(t))));
         events.extend([begun(50.0, "my-own"), dropped(51.0)]);
-        let told = attempts(&events, &texts, &rubric);
+        let told = attempts(&events, &[], &texts, &rubric);
         assert_eq!([told.present, told.of_present, told.so_far], [2, 1, 41]);
         // By the table of the score: glass is worth 5 points, a flask that was dropped and no pour leave none of them, and the rest is not
         // judged.
@@ -164,7 +287,7 @@ mod tests {
         events.insert(1, boiled_over(0.5));
         events.push(boiled_over(52.0));
         events.extend((60..100).map(|t| dropped(f64::from(t))));
-        let told = attempts(&events, &texts, &rubric);
+        let told = attempts(&events, &[], &texts, &rubric);
         assert_eq!(
             [told.of_present, told.so_far, told.grave_so_far],
             [42, 83, 2]
@@ -176,11 +299,11 @@ mod tests {
         assert_eq!(times, [52.0].into_iter().chain(last).collect::<Vec<_>>());
         // More grave ones than fit: the last of them.
         events.extend((100..140).map(|t| boiled_over(f64::from(t))));
-        let told = attempts(&events, &texts, &rubric);
+        let told = attempts(&events, &[], &texts, &rubric);
         assert_eq!([told.so_far, told.grave_so_far], [123, 42]);
         let times: Vec<_> = told.incidents.iter().filter_map(|it| it.t_s).collect();
         assert_eq!(times, (108..140).map(f64::from).collect::<Vec<_>>());
-        let none = attempts(&[], &texts, &rubric);
+        let none = attempts(&[], &[], &texts, &rubric);
         assert_eq!((none.present, none.points), (0, None));
     }
 }

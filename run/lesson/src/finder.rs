@@ -28,6 +28,7 @@ use crate::limits::Limits;
 use crate::mixing::layered;
 use broken::GlassFalls;
 use flows::Flows;
+pub use flows::Stream;
 use heat::HeatFinder;
 use leaving::Leavings;
 use skin::Touches;
@@ -242,6 +243,11 @@ impl Finder {
         }
         self.t = seen.t;
         said
+    }
+
+    /// The pour that was under way in the last observation.
+    pub fn pouring(&self) -> Option<Stream> {
+        self.flows.under_way(&self.bench, self.t)
     }
 
     /// Ends the attempt at the time of the last observation. Returns the events under way and [`Event::Ended`]; nothing if no attempt has

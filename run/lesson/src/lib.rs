@@ -30,7 +30,7 @@ pub use contact::ContactTexts;
 pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
-pub use finder::{Dipped, Finder, Seen};
+pub use finder::{Dipped, Finder, Seen, Stream};
 pub use glass::{Glass, Glassware, Holding, Place};
 pub use language::{Language, LanguageError};
 pub use limits::Limits;

@@ -18,6 +18,9 @@ pub enum Decision {
     /// Ends the session as [`Decision::End`] does, but only where it is asked for again within five seconds: a key is soon pressed by
     /// mistake.
     AskEnd,
+    /// The key of this decision went down in a desk's window; the decision counts when the key has been [held](super::hold) for long enough.
+    /// `None`: the key is up again.
+    Hold(Option<Box<Decision>>),
 }
 
 impl Decision {
@@ -28,6 +31,14 @@ impl Decision {
             self,
             Self::Toggle | Self::Act(Scene(_) | Start(_) | Skip(_) | Finish)
         )
+    }
+
+    /// What is sent where its key goes down in a desk's window: there a key takes the hold that the panel's button takes.
+    pub fn by_key(self) -> Self {
+        match self.loses_work() {
+            true => Self::Hold(Some(Box::new(self))),
+            false => self,
+        }
     }
 
     /// This decision where `present` is the scene in use. A toggle becomes the scene that it leads to; it is `None` where `present` has no
@@ -62,5 +73,27 @@ mod tests {
             assert_eq!(decision.clone().at("two-flasks"), Some(decision));
         }
         assert!(Decision::Toggle.loses_work());
+    }
+
+    #[test]
+    fn a_key_takes_a_hold_where_the_panels_button_does() {
+        use Action::{Answer, Hint, Skip, Start};
+        let answer = Answer {
+            step: None,
+            answer: 1,
+        };
+        for action in [Start(None), Skip(None)] {
+            let decision = Decision::Act(action);
+            let held = Decision::Hold(Some(Box::new(decision.clone())));
+            assert_eq!(decision.by_key(), held);
+        }
+        for decision in [
+            Decision::AskEnd,
+            Decision::Summary,
+            Decision::Act(Hint(None)),
+            Decision::Act(answer),
+        ] {
+            assert_eq!(decision.clone().by_key(), decision);
+        }
     }
 }

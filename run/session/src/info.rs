@@ -3,7 +3,7 @@
 use vitriol_lesson::Tone;
 
 use vitriol_run::Action;
-use vitriol_run::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
+use vitriol_run::texts::{AcidOnTexts, EffortTexts, PanelTexts, SpiltTexts};
 
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +40,10 @@ pub struct Info {
     pub coming: Option<String>,
     /// How far a hold of the button for a new start has come, per cent.
     pub holding: Option<u32>,
+    /// How far the hold of a key has come, per cent; 0 also for a short time after a tap, which is too short.
+    pub key_held: Option<u32>,
+    /// The pour under way.
+    pub pouring: Option<Pouring>,
     /// The end was asked for once.
     pub ends: bool,
     /// Whether mouse and keyboard move the hands: their keys are shown, and no button to recentre.
@@ -50,6 +54,15 @@ pub struct Info {
     pub told: Told,
     /// The lesson, as the panel shows it.
     pub lesson: Option<Shown>,
+}
+
+impl Info {
+    /// The pour under way in words. A user who is examined is told nothing that the lesson is judged by.
+    pub fn pouring_text(&self, words: &PanelTexts) -> Option<String> {
+        let quiet = self.lesson.as_ref().is_some_and(|it| it.quiet);
+        let pouring = self.pouring.filter(|_| !quiet);
+        pouring.map(|it| it.text(words))
+    }
 }
 
 /// What the panel shows of a lesson.
@@ -100,8 +113,10 @@ pub struct ActLine {
 /// The instructor's message and actions, as the panel shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Told {
-    /// In words: that time is held, while it is, and her last action.
-    pub done: Vec<String>,
+    /// That time is held, while it is.
+    pub paused: Option<String>,
+    /// Her last action.
+    pub done: Option<String>,
     /// Her message.
     pub message: Option<String>,
 }
@@ -153,6 +168,34 @@ impl Lying {
             })
             .collect();
         (!parts.is_empty()).then(|| words.text.replace("{places}", &parts.join(&words.next)))
+    }
+}
+
+/// A pour under way, in tenths of a mL and of a mL/s, to which it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pouring {
+    volume: u32,
+    rate: u32,
+}
+
+impl Pouring {
+    /// Rounds what has arrived so far (m³) and arrives now (m³/s).
+    pub fn of(volume_m3: f64, rate_m3_s: f64) -> Self {
+        let tenths = |cubic_metres: f64| (1e7 * cubic_metres).round() as u32;
+        Self {
+            volume: tenths(volume_m3),
+            rate: tenths(rate_m3_s),
+        }
+    }
+
+    /// In a sentence: from ten on in whole numbers.
+    pub fn text(&self, words: &PanelTexts) -> String {
+        let decimal = &words.spilt.decimal;
+        let [volume, rate] = [self.volume, self.rate].map(|tenths| match tenths {
+            ..100 => format!("{}{decimal}{}", tenths / 10, tenths % 10),
+            _ => ((tenths + 5) / 10).to_string(),
+        });
+        words.poured(&volume, &rate)
     }
 }
 
@@ -253,6 +296,20 @@ mod tests {
         let german = Texts::of(Language::De).unwrap().panel.spilt;
         let comma = Lying::of(0.31, 0.0).text(&german);
         assert_eq!(comma.as_deref(), Some("verschüttet: 0,3 mL auf dem Tisch"));
+    }
+
+    #[test]
+    fn a_pour_is_said_to_the_tenth_and_then_to_the_millilitre() {
+        let text = |language, volume, rate| {
+            let words = Texts::of(language).unwrap().panel;
+            Pouring::of(volume, rate).text(&words)
+        };
+        let slow = text(Language::En, 4.26e-6, 0.04e-6);
+        assert_eq!(slow, "poured: 4.3 mL, now 0.0 mL/s");
+        let fast = text(Language::De, 9.99e-6, 31.6e-6);
+        assert_eq!(fast, "gegossen: 10 mL, jetzt 32 mL/s");
+        let comma = text(Language::De, 5e-6, 4.5e-6);
+        assert_eq!(comma, "gegossen: 5,0 mL, jetzt 4,5 mL/s");
     }
 
     #[test]

@@ -76,6 +76,10 @@ pub fn mouse_lines() -> String {
         ("Tab", "the other hand"),
         ("G", "pulls the other hand's glove off"),
         ("R, V", "the panel, the bench from the side; again: back"),
+        (
+            "B, N, 1 …",
+            "held for a second: a new start, the next step, a scene",
+        ),
         ("F11", "the whole screen"),
         ("Esc", "end, pressed twice"),
     ] {

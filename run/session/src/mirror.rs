@@ -5,13 +5,16 @@
 //! refresh would hold up the headset's queue.
 
 mod shrink;
+mod strip;
 mod window;
 
 use vitriol_gpu::{Gpu, Image};
 use vitriol_run::Failure;
+use vitriol_run::texts::PanelTexts;
 use vitriol_shaders::Library;
 
 pub use self::shrink::{LONGEST, Shrink, Shrunk, fit};
+use self::strip::Said;
 use self::window::Say;
 pub(crate) use self::window::{Display, Extent, Opening};
 pub use self::window::{Window, names_screen};
@@ -23,6 +26,8 @@ pub struct Mirror {
     window: Window,
     shrink: Shrink,
     title: String,
+    /// What the strip of a desk's window says.
+    said: Said,
 }
 
 impl Mirror {
@@ -40,6 +45,7 @@ impl Mirror {
             shrink: Shrink::new(gpu, library, eye, window.longest)?,
             window,
             title: String::new(),
+            said: Said::default(),
         })
     }
 
@@ -76,28 +82,62 @@ impl Mirror {
         Ok(())
     }
 
-    /// Puts scene and state into the window's title; `instead` is why the headset shows nothing, if it does not.
-    pub fn entitle(&mut self, info: &Info, instead: Option<&str>) {
-        let title = title(info, instead);
+    /// Puts scene and state into the window's title, and at a desk into the window's strip; `instead` is why the headset shows nothing, if
+    /// it does not.
+    pub fn entitle(&mut self, info: &Info, words: &PanelTexts, instead: Option<&str>) {
+        let title = title(info, words, instead);
         if self.title != title {
             self.window.say(Say::Title(title.clone()));
             self.title = title;
         }
+        if !info.pointer {
+            return;
+        }
+        let said = Said::of(info, words);
+        if self.said != said {
+            self.window.say(Say::Strip(said.clone()));
+            self.said = said;
+        }
     }
 }
 
-fn title(info: &Info, instead: Option<&str>) -> String {
-    let mut title = format!("Vitriol: {}", info.title);
-    if let Some(coming) = &info.coming {
-        title += &format!(", setting up {coming} …");
+fn title(info: &Info, words: &PanelTexts, instead: Option<&str>) -> String {
+    let coming = info.coming.as_ref().map(|scene| words.coming(scene));
+    let slow = info.slow.map(|per_cent| words.slow(per_cent));
+    let recording = info.recording.map(|seconds| words.recording(seconds));
+    let parts = [
+        Some(format!("Vitriol: {}", info.title)),
+        coming,
+        instead.map(str::to_owned).or(slow),
+        info.told.paused.clone(),
+        recording,
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    parts.join(", ")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_lesson::Language;
+    use vitriol_run::texts::Texts;
+
+    #[test]
+    fn a_title_says_a_pause_in_the_sessions_language() {
+        let texts = Texts::of(Language::De).unwrap();
+        let mut info = Info {
+            title: "Säure in Wasser".into(),
+            slow: Some(25),
+            recording: Some(66),
+            ..Info::default()
+        };
+        let said = "Vitriol: Säure in Wasser, Zeitlupe: 25 % der Echtzeit, Aufnahme, 1 min 06 s";
+        assert_eq!(title(&info, &texts.panel, None), said);
+        info.told.paused = Some(texts.instructor.held);
+        info.slow = None;
+        let said =
+            "Vitriol: Säure in Wasser, Von deiner Lehrkraft angehalten, Aufnahme, 1 min 06 s";
+        assert_eq!(title(&info, &texts.panel, None), said);
     }
-    match (instead, info.slow) {
-        (Some(instead), _) => title += &format!(", {instead}"),
-        (None, Some(per_cent)) => title += &format!(", slow motion: {per_cent} % of real time"),
-        (None, None) => {}
-    }
-    if let Some(seconds) = info.recording {
-        title += &format!(", recording, {} min {:02} s", seconds / 60, seconds % 60);
-    }
-    title
 }

@@ -9,6 +9,9 @@ mod fits;
 mod lesson;
 mod view;
 
+pub(crate) use self::colours::{SAID, WARNING, WHITE};
+pub(crate) use self::view::style;
+
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, Image, Recorder};

@@ -404,10 +404,10 @@ impl Session {
     }
 
     /// What is lost where the pictures have nowhere to go.
-    fn lost(&self) -> &'static str {
+    fn lost(&self) -> String {
         match self.pointer {
-            true => "the graphics card failed",
-            false => "the headset is lost",
+            true => self.texts.panel.device_lost.clone(),
+            false => "the headset is lost".to_owned(),
         }
     }
 
@@ -415,7 +415,7 @@ impl Session {
     fn pause(&mut self, why: &str) -> Result<(), Failure> {
         let info = self.info();
         if let Some(mirror) = &mut self.mirror {
-            mirror.entitle(&info, Some(why));
+            mirror.entitle(&info, &self.texts.panel, Some(why));
         }
         self.steps.clock.pause();
         self.placement.interrupt();
@@ -430,7 +430,7 @@ impl Session {
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
-        self.pause(self.lost())?;
+        self.pause(&self.lost())?;
         self.renewals += 1;
         if !self.run.world.gpu().is_lost() {
             self.observe(true)?;

@@ -14,6 +14,10 @@ use vitriol_xr::Side;
 
 /// R lets the panel fill the picture.
 const FILLS: u32 = 'r' as u32;
+/// B begins the scene anew.
+const STARTS: u32 = 'b' as u32;
+/// Ground of the strip at the window's upper edge.
+const STRIP: [u8; 3] = [54, 34, 84];
 
 /// Where a place of the panel is in the stage: shares of its width and height from its upper left.
 fn on_panel(seen: &Seen<'_>, [x, y]: [f32; 2]) -> Vec3 {
@@ -157,6 +161,44 @@ fn buttons_of_the_panel_are_pressed_with_the_mouse() {
             .iter()
             .all(|it| it.incidents.is_empty())
     );
+}
+
+/// Whether the window's title says that a bench is set up.
+fn is_set_up(user: &User) -> bool {
+    let title = user.screen.title(user.window);
+    title.is_some_and(|it| it.contains("setting up"))
+}
+
+#[test]
+fn a_key_that_loses_work_is_held() {
+    let name = "desk::panel::a_key_that_loses_work_is_held";
+    let script = Script::default()
+        .then("taps B, and is told to hold it", |user, _, frame| {
+            if frame.is_multiple_of(50) {
+                user.tap(STARTS);
+            }
+            assert!(!is_set_up(user));
+            let (_, pixels) = user.screen.picture(user.window);
+            pixels[0] == STRIP
+        })
+        // No less of display time, in which a hold would have come to its end.
+        .then("waits", |user, seen, _| {
+            assert!(!is_set_up(user));
+            seen.lasts > 1.5
+        })
+        .then("holds it", |user, _, _| {
+            let begins = is_set_up(user);
+            user.hold(STARTS, !begins);
+            begins
+        })
+        .then("waits for the bench", |user, _, _| !is_set_up(user));
+    let Some((_gpu, sat)) = sat(name, By::Keys, |_, _| script) else {
+        return;
+    };
+    assert_eq!(sat.ended_in, None);
+    let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
+    let starts = switches.filter(|switch| switch.key == key::START);
+    assert_eq!(starts.count(), 1);
 }
 
 /// Takes a flask by key with the active hand, which keeps it.

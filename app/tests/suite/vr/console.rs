@@ -174,8 +174,8 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         send(8, "k-v", "2.5", &reads("k-v-now", "2.5")),
         click(12, "spare", &pressed("spare", true)),
         speed(16, "0.25"),
-        click(28, "pause", &pressed("pause", true)),
-        click(40, "pause", &pressed("pause", false)),
+        click(28, "pause", &reads("pause", "Resume")),
+        click(40, "pause", &reads("pause", "Pause")),
         speed(44, "1"),
         click(48, "unsay", &reads("shown", "nothing")),
         click(
@@ -189,7 +189,7 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         ),
         click(60, "spare", &pressed("spare", false)),
         // What is done while time is held, right before the end, is kept too.
-        click(64, "pause", &pressed("pause", true)),
+        click(64, "pause", &reads("pause", "Resume")),
         send(66, "message", BYE, &reads("shown", BYE)),
         click(68, "end-now", &reads("said", "The session is over.")),
     ];
@@ -248,11 +248,11 @@ mod long {
         let gpu = gpu::device();
         let folder = tempfile::tempdir().unwrap();
         let deeds = vec![
-            click(66, "pause", &pressed("pause", true)),
+            click(66, "pause", &reads("pause", "Resume")),
             // The flask in the hand is work, which another start would lose.
             click(70, "reset", &format!("{}.open", at("lose"))),
             click(72, "lose-not", &format!("!{}.open", at("lose"))),
-            click(76, "pause", &pressed("pause", false)),
+            click(76, "pause", &reads("pause", "Pause")),
         ];
         let Some((_hub, instructor, options)) = directed(options(folder.path()), deeds) else {
             return;

@@ -55,6 +55,8 @@ fn info() -> Info {
         }),
         coming: Some("acid-into-water".into()),
         holding: Some(65),
+        key_held: None,
+        pouring: None,
         ends: true,
         pointer: false,
         happened: None,
@@ -165,7 +167,8 @@ fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     // What would lose the user's work takes a second.
-    let scenes = choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let scenes =
+        choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
     let scenes: Vec<Decision> = scenes.collect();
     let others = [
         Decision::Act(Action::Start(None)),
@@ -272,7 +275,8 @@ fn what_an_instructor_says_is_over_all_and_hides_no_button() {
     let said: String = said.chars().cycle().take(MESSAGE).collect();
     let info = Info {
         told: Told {
-            done: vec!["Paused by your instructor".into()],
+            paused: Some("Paused by your instructor".into()),
+            done: None,
             message: Some(format!("Your instructor: {said}")),
         },
         holding: None,

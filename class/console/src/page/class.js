@@ -176,13 +176,13 @@ function loseAsked() {
   asked.clear();
 }
 
-let offered = "";
+let allChoices = [];
 function showAll(students, choices) {
   $("all").hidden = students.length < 2;
   $("all-scene").hidden = choices.length === 0;
   // A list that is open would close.
-  if (offered === JSON.stringify(choices)) return;
-  offered = JSON.stringify(choices);
+  if (JSON.stringify(allChoices) === JSON.stringify(choices)) return;
+  allChoices = choices;
   $("all-choice").replaceChildren(...choices.map(({ title, kind }, choice) => {
     const option = make("option", KINDS[kind] + title);
     option.value = choice;
@@ -190,12 +190,19 @@ function showAll(students, choices) {
   }));
 }
 $("all-pause").onclick = () => orderAll({ do: "pause", on: true }, tr("pause"));
-$("all-go").onclick = () => orderAll({ do: "pause", on: false }, tr("go_on"));
+$("all-go").onclick = () => orderAll({ do: "pause", on: false }, tr("resume"));
+$("all-end").onclick = () => {
+  askEnd(tr("all_end_question"), count(page.students.filter((student) => student.here).length, "session_ends"));
+};
 $("all-scene").onsubmit = (event) => {
   event.preventDefault();
   const choice = Number($("all-choice").value);
   const words = $("all-choice").selectedOptions[0].textContent;
-  askFirst(words, tr("all_lose"), () => orderAll({ do: "scene", choice }, words));
+  // The lesson's own scene begins the lesson anew. Recordings with another scene are not graded.
+  const leaves = ({ here, step, scene }) => here && step && scene !== allChoices[choice]?.title;
+  const leaving = page.students.filter(leaves).length;
+  const lesson = leaving > 0 ? count(leaving, "lessons_end") : "";
+  askFirst(words, { work: tr("all_lose"), lesson }, () => orderAll({ do: "scene", choice }, words));
 };
 $("all-send").onsubmit = (event) => {
   event.preventDefault();

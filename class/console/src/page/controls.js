@@ -45,11 +45,18 @@ function loseOrders() {
 // What brings up a scene from its start, which takes a while, and loses what the student has done in this attempt.
 const BEGIN = ["scene", "reset", "toggle"];
 let confirmed = null;
-function askFirst(title, what, then) {
+function askFirst(title, { work = "", lesson = "" }, then) {
   confirmed = then;
   write($("lose-title"), title);
-  write($("lose-what"), what);
-  $("lose").showModal();
+  write($("lose-what"), work);
+  write($("lose-lesson"), lesson);
+  ask("lose", "lose-not");
+}
+
+// A browser focuses a dialog's first button. What Enter presses must do no harm.
+function ask(dialog, harmless) {
+  $(dialog).showModal();
+  $(harmless).focus();
 }
 $("lose-not").onclick = () => $("lose").close();
 $("lose-now").onclick = () => {
@@ -59,8 +66,11 @@ $("lose-now").onclick = () => {
 
 function beginScene(command, words, control) {
   const begin = () => order(command, words, control);
-  if (!page.state?.worked) return begin();
-  askFirst(words, tr("at_work", { attempt: page.state.attempt }), begin);
+  const { worked, attempt, step, choice } = page.state ?? {};
+  // The lesson's own scene begins the lesson anew. Recordings with another scene are not graded.
+  const leaves = step && (command.do === "toggle" || (command.do === "scene" && command.choice !== choice));
+  if (!worked && !leaves) return begin();
+  askFirst(words, { work: worked ? tr("at_work", { attempt }) : "", lesson: leaves ? tr("lesson_ends") : "" }, begin);
 }
 
 const KINDS = { correct: "✓ ", incorrect: "✗ ", other: "" };
@@ -77,14 +87,14 @@ function showScenes() {
   if (range) Object.assign($("k-v"), { min: range.least, max: range.most });
 }
 
-const toggle = (id, command, words) => {
+const toggle = (id, command, isOn, words) => {
   $(id).onclick = () => {
-    const on = $(id).getAttribute("aria-pressed") !== "true";
+    const on = !isOn();
     order({ do: command, on }, words[Number(on)], $(id));
   };
 };
-toggle("pause", "pause", [tr("go_on"), tr("pause")]);
-toggle("spare", "spare", [tr("heard"), tr("muted")]);
+toggle("pause", "pause", () => page.state?.controls.paused, [tr("resume"), tr("pause")]);
+toggle("spare", "spare", () => page.state?.controls.spared, [tr("heard"), tr("muted")]);
 $("reset").onclick = () => beginScene({ do: "reset" }, tr("from_start"), $("reset"));
 $("other-order").onclick = () => beginScene({ do: "toggle" }, tr("other_order"), $("other-order"));
 $("speed").onchange = () => {
@@ -103,11 +113,16 @@ $("send").onsubmit = (event) => {
   order({ do: "message", text }, tr("message"), event.submitter ?? $("message"), sent);
 };
 $("unsay").onclick = () => order({ do: "message", text: "" }, tr("taken_away"), $("unsay"));
-$("end").onclick = () => $("sure").showModal();
+function askEnd(title, what) {
+  write($("sure-title"), title);
+  write($("sure-what"), what);
+  ask("sure", "end-not");
+}
+$("end").onclick = () => askEnd(tr("end_question"), "");
 $("end-not").onclick = () => $("sure").close();
 $("end-now").onclick = () => {
   $("sure").close();
-  order({ do: "end" }, tr("end_order"), $("end"));
+  if (page.opened === null) orderAll({ do: "end" }, tr("end_order")); else order({ do: "end" }, tr("end_order"), $("end"));
 };
 
 function showControls(state) {
@@ -123,7 +138,8 @@ function showControls(state) {
   [...$("scenes").querySelectorAll("button")].forEach((button, choice) => {
     button.setAttribute("aria-pressed", choice === asked);
   });
-  $("pause").setAttribute("aria-pressed", controls.paused);
+  write($("pause"), tr(controls.paused ? "resume" : "pause"));
+  $("pause").classList.toggle("on", controls.paused);
   $("spare").setAttribute("aria-pressed", controls.spared);
   const speed = $("speed");
   if (document.activeElement !== speed && !("waits" in speed.dataset)) {
@@ -166,26 +182,32 @@ function showSummary() {
   $("summary").scrollIntoView({ block: "nearest" });
 }
 
+const sentence = (one) => " " + (one.grave ? "⚠ " : "") + one.text;
 function entries(list, said, mark = () => "") {
   const key = JSON.stringify(said);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
   list.replaceChildren(...said.map((one) => {
     const item = make("li", "", mark(one));
-    item.append(make("time", seconds(one.t_s)), " " + (one.grave ? "⚠ " : "") + one.text);
+    item.append(make("time", seconds(one.t_s)), sentence(one));
     return item;
   }));
 }
 
-// Incidents of earlier attempts stay, each attempt under its own heading, the present one first.
+// Incidents of earlier attempts stay, each attempt under its own heading, the present one first. The amount of one that is under way
+// grows: then its text alone is written, so that the list stays where it was scrolled to.
 function showIncidents({ attempt, scene, incidents }) {
-  const key = JSON.stringify([attempt, scene, incidents]);
+  const key = JSON.stringify([attempt, scene, incidents.map((one) => ({ ...one, text: "" }))]);
   const list = $("incident-list");
-  if (list.dataset.key === key) return;
-  list.dataset.key = key;
   const numbers = [...new Set([...incidents.map((one) => one.attempt), attempt])].sort((a, b) => b - a);
-  list.replaceChildren(...numbers.flatMap((number) => {
-    const those = incidents.filter((one) => one.attempt === number);
+  const listed = numbers.map((number) => incidents.filter((one) => one.attempt === number));
+  if (list.dataset.key === key) {
+    const items = list.querySelectorAll("li");
+    return listed.flat().forEach((one, at) => write(items[at].lastChild, sentence(one)));
+  }
+  list.dataset.key = key;
+  list.replaceChildren(...numbers.flatMap((number, at) => {
+    const those = listed[at];
     const title = number === attempt ? tr("scene_now", { scene }) : those[0].scene;
     const items = make("ol");
     entries(items, those, (one) => one.grave ? "grave" : "");

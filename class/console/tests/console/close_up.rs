@@ -10,8 +10,9 @@ use crate::student::{CLOSE_COLOUR, COLOUR, FakeStudent, card, hub};
 /// Waits until the middle of the live view has that colour, which the codecs keep within a few steps of 255.
 fn shows(tab: &mut Tab, colour: [u8; 3]) {
     tab.until(&format!(
-        "(() => {{ const c = {}; \
-         const pixel = c.getContext('2d').getImageData(c.width / 2, c.height / 2, 1, 1).data; \
+        "(() => {{ const c = {}, copy = new OffscreenCanvas(1, 1).getContext('2d'); \
+         copy.drawImage(c, -c.width / 2, -c.height / 2); \
+         const pixel = copy.getImageData(0, 0, 1, 1).data; \
          return pixel[3] === 255 && {colour:?}.every((value, at) => Math.abs(pixel[at] - value) <= 12) }})()",
         at("picture")
     ));

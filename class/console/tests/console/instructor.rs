@@ -2,6 +2,7 @@
 
 use serde_json::json;
 use vitriol_console::{Coming, Command, Incident, List, Port, State, Text};
+use vitriol_tests::browser::Look;
 use vitriol_tests::devtools::Tab;
 use vitriol_tests::wait;
 
@@ -83,6 +84,14 @@ fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
     click(&mut tab, "other-order");
     assert_eq!(tab.eval(&format!("{}.open", at("lose"))), true);
     student.nothing_else();
+    // What Enter presses does no harm, and Escape closes too.
+    for key in ["Enter", "Escape"] {
+        assert_eq!(tab.eval("document.activeElement.id"), "lose-not");
+        tab.press(&[key]);
+        tab.until(&format!("!{}.open", at("lose")));
+        student.nothing_else();
+        click(&mut tab, "other-order");
+    }
     click(&mut tab, "lose-not");
     assert_eq!(tab.eval(&format!("{}.open", at("lose"))), false);
     student.nothing_else();
@@ -91,6 +100,71 @@ fn incidents_belong_to_attempts_and_work_is_not_lost_unasked() {
     assert_eq!(student.ordered(), Command::Toggle {});
     student.nothing_else();
     no_complaints(&mut tab);
+}
+
+/// Another scene ends a lesson, whose recording is not graded then: the page says so, even where nothing was taken in a hand. The lesson's
+/// own scene begins it anew.
+#[test]
+fn a_lesson_does_not_end_unasked() {
+    let Some((_folder, hub, [student], mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
+    open(&mut tab, &hub);
+    tab.until(&begins("step", "Step 2 of 7"));
+    let scene = |choice: u8| format!("document.querySelectorAll('#scenes button')[{choice}]");
+    tab.eval(&format!("{}.click()", scene(1)));
+    assert_eq!(tab.eval(&format!("{}.open", at("lose"))), true);
+    assert_eq!(text(&mut tab, "lose-what"), "");
+    let ends = "The lesson ends here, and none of the student's work in it will be graded.";
+    assert_eq!(text(&mut tab, "lose-lesson"), ends);
+    student.nothing_else();
+    click(&mut tab, "lose-not");
+    tab.eval(&format!("{}.click()", scene(0)));
+    assert_eq!(student.ordered(), Command::Scene { choice: 0 });
+    tab.until(&reads("said", "Acid into water: done."));
+    click(&mut tab, "other-order");
+    assert_eq!(text(&mut tab, "lose-lesson"), ends);
+    click(&mut tab, "lose-now");
+    assert_eq!(student.ordered(), Command::Toggle {});
+    // There is no lesson in that scene.
+    tab.until(&reads("step", "This scene has no procedure."));
+    tab.eval(&format!("{}.click()", scene(2)));
+    assert_eq!(student.ordered(), Command::Scene { choice: 2 });
+    no_complaints(&mut tab);
+}
+
+/// An incident under way has a text that changes. The list is written and not made anew, so that it stays where it was scrolled to.
+#[test]
+fn an_incident_grows_in_its_place() {
+    let Some((_folder, hub, [student], mut tab)) = class_of("en", ["Ada"]) else {
+        return;
+    };
+    open(&mut tab, &hub);
+    let item = "document.querySelector('#incident-list li')";
+    for ml in ["6.4 mL", "13 mL"] {
+        let text = format!("Spilt on the bench: {ml}.");
+        student.state.lock().unwrap().incidents = List::clipped([incident(1, &text, false)]);
+        tab.until(&format!("{item}.textContent === '20.0 s {text}'"));
+        tab.eval(&format!("window.first ??= {item}; 1"));
+    }
+    assert_eq!(tab.eval(&format!("window.first === {item}")), true);
+    no_complaints(&mut tab);
+}
+
+/// What an instructor needs at once is seen without scrolling on a small notebook's screen.
+#[test]
+fn the_first_screen_has_what_is_needed_at_once() {
+    for language in ["en", "de", "es", "zh"] {
+        let Some((_folder, hub, [_ada], mut tab)) = class_of(language, ["Ada"]) else {
+            return;
+        };
+        tab.look([1366, 768], Look::Light);
+        open(&mut tab, &hub);
+        tab.until(&format!("{}.textContent !== ''", at("stream")));
+        let below = "['screen', 'pause', 'message', 'unsay', 'end'].filter((id) => \
+            document.getElementById(id).getBoundingClientRect().bottom > innerHeight)";
+        assert_eq!(tab.eval(below), json!([]), "{language}");
+    }
 }
 
 #[test]
@@ -102,6 +176,11 @@ fn the_end_leaves_a_summary() {
     open(&mut tab, &hub);
     tab.until(&reads("shown", "nothing"));
     assert_eq!(tab.eval(&format!("{}.hidden", at("summary"))), true);
+    click(&mut tab, "end");
+    assert_eq!(tab.eval("document.activeElement.id"), "end-not");
+    tab.press(&["Enter"]);
+    tab.until(&format!("!{}.open", at("sure")));
+    student.nothing_else();
     click(&mut tab, "end");
     click(&mut tab, "end-now");
     assert_eq!(student.ordered(), Command::End {});
@@ -330,10 +409,12 @@ fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
         at("all-message")
     );
     tab.eval(&send);
-    let text = Text::clipped("Goggles on!");
-    all(Command::Message { text });
+    let message = Text::clipped("Goggles on!");
+    all(Command::Message { text: message });
     tab.until(&format!("{}.value === ''", at("all-message")));
-    // A scene for all asks first.
+    // A scene for all asks first, and says how many lessons it ends: Cy's is over already.
+    students[2].state.lock().unwrap().step = None;
+    tab.until("!document.querySelector('[data-student=\"3\"]').textContent.includes('Step')");
     tab.eval(&format!(
         "{{ {0}.value = '1'; {0}.form.requestSubmit(); 1 }}",
         at("all-choice")
@@ -342,7 +423,23 @@ fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
     for student in &students {
         student.nothing_else();
     }
+    assert_eq!(
+        text(&mut tab, "lose-lesson"),
+        "2 students are in a lesson: it ends for them, and none of their work in it will be graded."
+    );
+    assert_eq!(tab.eval("document.activeElement.id"), "lose-not");
     click(&mut tab, "lose-now");
     all(Command::Scene { choice: 1 });
+    // So does the end for all.
+    click(&mut tab, "all-end");
+    assert_eq!(tab.eval("document.activeElement.id"), "end-not");
+    let ends = "3 sessions end. Recordings stay on the students' computers.";
+    assert_eq!(text(&mut tab, "sure-what"), ends);
+    for student in &students {
+        student.nothing_else();
+    }
+    click(&mut tab, "end-now");
+    all(Command::End {});
+    tab.until(&reads("all-said", "End: sent to 3 students."));
     no_complaints(&mut tab);
 }

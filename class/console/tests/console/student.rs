@@ -117,6 +117,8 @@ fn obey(state: &mut State, command: &Command) {
     let begin = |state: &mut State, choice: u8| {
         state.choice = Some(choice);
         state.scene = Text::clipped(&choices[usize::from(choice)].title);
+        // The lesson is of the first scene.
+        state.step = first_state().step.filter(|_| choice == 0);
     };
     let present = state.choice.map(usize::from);
     let other = present.and_then(|at| choices[at].counterpart);

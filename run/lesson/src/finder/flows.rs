@@ -30,6 +30,15 @@ struct Flow {
     too_fast: Option<[f64; 3]>,
 }
 
+/// A pour under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stream {
+    /// What has arrived so far, m³ at real size.
+    pub volume_m3: f64,
+    /// Mean flow rate over the last half second, m³/s, which [`Pour::fastest_m3_s`] is the highest of.
+    pub rate_m3_s: f64,
+}
+
 /// Source and target flask of a flow; the target is `None` for bench and floor.
 type Way = (usize, Option<usize>);
 
@@ -157,6 +166,20 @@ impl Flows {
         for (way, flow) in over {
             flow.say(bench, way, said);
         }
+    }
+
+    /// The largest pour under way at `now` (s): drops that fall beside it are another flow.
+    pub fn under_way(&self, bench: &Bench, now: f64) -> Option<Stream> {
+        let largest =
+            (self.open.values()).max_by(|a, b| a.amount.volume.total_cmp(&b.amount.volume));
+        let flow = largest.filter(|it| it.amount.volume >= bench.limits.least_pour_m3)?;
+        // With a microsecond of tolerance, since times are sums of steps and rounded.
+        let oldest = now - WINDOW + 1e-6;
+        let lately = flow.window.iter().filter(|(at, _)| *at > oldest);
+        Some(Stream {
+            volume_m3: flow.amount.volume,
+            rate_m3_s: lately.map(|(_, volume)| volume).sum::<f64>() / WINDOW,
+        })
     }
 
     /// The flask from which liquid that mixes was last poured into `into`, if that was within `WARMS` before `now`.

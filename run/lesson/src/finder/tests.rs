@@ -144,9 +144,18 @@ fn a_pour_has_its_amount_its_rate_and_its_order() {
         arranged.tilt(0, 80.0);
         let acid = f64::from(acids[0]);
         arranged.pours(100, 1e-6 * rate * STEP, acid, Place::Flask(1));
+        let under_way = |arranged: &Arranged, rates: f64| {
+            let now = arranged.finder.pouring().unwrap();
+            assert!(near(now.volume_m3, 1e-6 * rate), "{now:?}");
+            assert!(near(now.rate_m3_s, 1e-6 * rates), "{now:?}");
+        };
+        under_way(&arranged, rate);
+        // Half a second without liquid: the pour goes on, at no rate.
         arranged.looks(50, &|census| census);
+        under_way(&arranged, 0.0);
         arranged.pours(100, 1e-6 * rate * STEP, acid, Place::Flask(1));
         let (pours, incidents) = arranged.end();
+        assert_eq!(arranged.finder.pouring(), None);
         let [pour] = &pours[..] else {
             panic!("{pours:?}");
         };

@@ -24,6 +24,7 @@ use winit::window::{Fullscreen, Window as Frame, WindowId};
 use self::keys::{Listener, Outcome};
 use self::lay::lay;
 use super::shrink::{LONGEST, Shrunk, fit};
+use super::strip::{Said, Strip};
 use crate::decision::Decision;
 use crate::desk::input::Input;
 use crate::menu;
@@ -41,6 +42,8 @@ pub enum Say {
     Title(String),
     /// A new picture.
     Picture(Shrunk),
+    /// What the strip at its upper edge says from now on.
+    Strip(Said),
     /// That the session is over.
     End,
 }
@@ -170,6 +173,7 @@ impl Window {
                     asked,
                     frame: None,
                     shown: None,
+                    strip: None,
                 };
                 if let Err(error) = events.run_app(&mut face) {
                     tracing::warn!("the window is gone: {error}");
@@ -196,6 +200,11 @@ impl Window {
     /// The same as it changes.
     pub(crate) fn shared_extent(&self) -> Arc<Extent> {
         Arc::clone(&self.extent)
+    }
+
+    /// Its title until the session has one: it has its picture when bench and shaders are ready, which may take minutes.
+    pub fn entitle(&self, title: String) {
+        self.say(Say::Title(title));
     }
 
     /// Sends it a message, which is lost if it is closed.
@@ -279,6 +288,8 @@ struct Face {
     frame: Option<(Rc<Frame>, Pixels)>,
     /// The last picture, 0x00RRGGBB row by row, and its width and height.
     shown: Option<(Vec<u32>, [u32; 2])>,
+    /// The strip over it, once it said something.
+    strip: Option<Strip>,
 }
 
 /// Nothing, or an error of screen or device.
@@ -290,11 +301,7 @@ impl Face {
         let [width, height] = asked.extent.get().unwrap_or([OPENS_AT; 2]);
         let whole = asked.full_screen.then_some(Fullscreen::Borderless(None));
         let wanted = Frame::default_attributes()
-            .with_title(match asked.listener {
-                // It has its picture when bench and shaders are ready, which may take minutes.
-                Some(_) => "Vitriol: being made ready …",
-                None => "Vitriol",
-            })
+            .with_title("Vitriol")
             .with_inner_size(LogicalSize::new(width, height))
             .with_fullscreen(whole);
         let frame = Rc::new(events.create_window(wanted)?);
@@ -370,6 +377,12 @@ impl Face {
         if let Some((picture, extent)) = &self.shown {
             lay(&mut pixels, [width, height], picture, *extent);
         }
+        if let Some(strip) = &mut self.strip {
+            let rows = strip.pixels([width, height]);
+            for (pixel, painted) in pixels.iter_mut().zip(rows) {
+                *pixel = *painted;
+            }
+        }
         frame.pre_present_notify();
         pixels.present()?;
         Ok(())
@@ -383,6 +396,10 @@ impl Face {
             Say::Title(title) => frame.set_title(&title),
             Say::Picture(shrunk) => {
                 self.shown = Some((shrunk.pixels()?, shrunk.extent));
+                frame.request_redraw();
+            }
+            Say::Strip(said) => {
+                self.strip.get_or_insert_with(Strip::new).say(said);
                 frame.request_redraw();
             }
             Say::End => {}

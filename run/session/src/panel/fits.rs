@@ -147,6 +147,7 @@ fn each_note_takes_two_lines_at_most() {
             words.slow(50),
             words.missed(9999),
             words.tints.clone(),
+            words.poured("150", "100"),
         ];
         for text in notes {
             let taken = lines(&context, &text, COLUMN);

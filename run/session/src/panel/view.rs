@@ -112,7 +112,10 @@ pub fn show(
 fn told(context: &Context, info: &Info, seen: &mut Seen) {
     let told = &info.told;
     let shown = info.lesson.as_ref().filter(|_| told.message.is_none());
-    let said: Vec<&String> = told.message.iter().chain(&told.done).collect();
+    let said: Vec<&String> = (told.message.iter())
+        .chain(&told.paused)
+        .chain(&told.done)
+        .collect();
     if shown.is_none() && said.is_empty() {
         return;
     }
@@ -219,6 +222,9 @@ fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
         legend(ui, words);
     }
     ui.add_space(8.0);
+    if let Some(text) = info.pouring_text(words) {
+        lines(ui, [Some(text)], WHITE);
+    }
     let slow = info.slow;
     let notes = [
         info.spilt.text(&words.spilt).filter(|_| !quiet),

@@ -7,10 +7,14 @@ use vitriol_run::Action;
 use vitriol_xr::Hand;
 
 use crate::decision::Decision;
+use crate::hold::Hold;
 use crate::inputs::Buttons;
 
 /// Within this time the end must be asked for again.
 const AGAIN: Duration = Duration::from_secs(5);
+
+/// How long it is said that a key which was tapped is to be held. Our choice: the line is read twice in that.
+const TOLD: Duration = Duration::from_secs(3);
 
 /// Collects decisions until the next frame does them.
 pub(super) struct Choices {
@@ -21,6 +25,10 @@ pub(super) struct Choices {
     wanted: Vec<Decision>,
     /// When the end was asked for once.
     asked: Option<Instant>,
+    /// A key of a desk's window that is down, and what it decides.
+    key: Option<(Decision, Hold)>,
+    /// When such a key went up too early.
+    tapped: Option<Instant>,
 }
 
 impl Choices {
@@ -31,6 +39,8 @@ impl Choices {
             buttons: Buttons::default(),
             wanted: Vec::new(),
             asked: None,
+            key: None,
+            tapped: None,
         }
     }
 
@@ -42,6 +52,13 @@ impl Choices {
                 Decision::End => ends = true,
                 Decision::AskEnd if self.asks_to_end(now) => ends = true,
                 Decision::AskEnd => self.asked = Some(now),
+                Decision::Hold(Some(decision)) => self.key = Some((*decision, Hold::default())),
+                // Where it was held for long enough, `take` has taken it.
+                Decision::Hold(None) => {
+                    if self.key.take().is_some() {
+                        self.tapped = Some(now);
+                    }
+                }
                 decision => self.wanted.push(decision),
             }
         }
@@ -52,6 +69,7 @@ impl Choices {
     pub fn forget(&mut self, now: Instant) -> bool {
         let ends = self.hear(now);
         self.wanted.clear();
+        (self.key, self.tapped) = (None, None);
         ends
     }
 
@@ -64,6 +82,13 @@ impl Choices {
     /// How far a hold of the button for a new start has come at that display time (ns), 0 to 1.
     pub fn holding(&self, now: i64) -> Option<f32> {
         self.buttons.holding(now)
+    }
+
+    /// How far the hold of a desk's key has come at the display time `shown_at` (ns), 0 to 1; 0 also for a short time after a tap.
+    pub fn key_held(&self, shown_at: i64, now: Instant) -> Option<f32> {
+        let share = (self.key.as_ref()).map(|(_, hold)| hold.share(shown_at).unwrap_or(0.0));
+        let tapped = (self.tapped).is_some_and(|tapped| now.duration_since(tapped) < TOLD);
+        share.or(tapped.then_some(0.0))
     }
 
     /// Takes in what was pressed on the panel.
@@ -82,6 +107,11 @@ impl Choices {
         ];
         let buttons = buttons.into_iter().filter(|(pressed, _)| *pressed);
         let mut chosen: Vec<Decision> = buttons.map(|(_, decision)| decision).collect();
+        let held = self.key.take_if(|(_, hold)| hold.advance(true, now));
+        if let Some((decision, _)) = held {
+            chosen.push(decision);
+            self.tapped = None;
+        }
         chosen.append(&mut self.wanted);
         let last = chosen.iter().rposition(brings_up);
         let mut at = 0..;
@@ -131,6 +161,35 @@ mod tests {
         }
         assert!(!choices.hear(Instant::now()));
         assert_eq!(choices.take(&hands, 0), [Decision::Toggle]);
+    }
+
+    /// At a desk a key that would lose work is held for a second, as the panel's button is; after a tap it is said so.
+    #[test]
+    fn a_key_that_loses_work_is_held() {
+        let (keys, elsewhere) = channel();
+        let mut choices = Choices::new(elsewhere);
+        let hands = [Hand::default(), Hand::default()];
+        let (begun, ms) = (Instant::now(), |n: i64| 1_000_000 * n);
+        let start = Decision::Act(Action::Start(None));
+        // Other decisions count at once.
+        assert_eq!(Decision::Summary.by_key(), Decision::Summary);
+        keys.send(start.clone().by_key()).unwrap();
+        assert!(!choices.hear(begun));
+        assert_eq!(choices.take(&hands, ms(0)), []);
+        assert_eq!(choices.take(&hands, ms(500)), []);
+        assert_eq!(choices.key_held(ms(500), begun), Some(0.5));
+        keys.send(Decision::Hold(None)).unwrap();
+        assert!(!choices.hear(begun));
+        assert_eq!(choices.take(&hands, ms(2000)), []);
+        let told = |after| choices.key_held(ms(2000), begun + Duration::from_secs(after));
+        assert_eq!([2, 4].map(told), [Some(0.0), None]);
+        // Held for a second it counts, once.
+        keys.send(start.clone().by_key()).unwrap();
+        assert!(!choices.hear(begun));
+        assert_eq!(choices.take(&hands, ms(3000)), []);
+        assert_eq!(choices.take(&hands, ms(4000)), [start]);
+        assert_eq!(choices.key_held(ms(4000), begun), None);
+        assert_eq!(choices.take(&hands, ms(9000)), []);
     }
 
     #[test]

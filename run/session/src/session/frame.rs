@@ -160,8 +160,8 @@ impl Session {
                 Decision::Recentre => recentre = true,
                 Decision::Summary if self.guide.tells(&self.run) => self.summary.toggle(),
                 Decision::Summary => {}
-                // `Choices::hear` has taken two of them, and `at` the third.
-                Decision::End | Decision::AskEnd | Decision::Toggle => {}
+                // `Choices::hear` has taken these, and `at` the last.
+                Decision::End | Decision::AskEnd | Decision::Hold(_) | Decision::Toggle => {}
             }
         }
         if let Some(leap) = self.placement.place(now, recentre) {
@@ -267,7 +267,7 @@ impl Session {
         let decided = self.panel.update(hands, &info, self.shown_at());
         self.choices.add(decided);
         if let Some(mirror) = &mut self.mirror {
-            mirror.entitle(&info, None);
+            mirror.entitle(&info, &self.texts.panel, None);
         }
     }
 
@@ -436,7 +436,7 @@ impl Session {
         let (world, census) = (&self.run.world, &looked.census);
         let scale = world.scene().scale.length_scale;
         let hands = looked.hands.each_ref().map(Vec::as_slice);
-        self.readings.take(census);
+        self.readings.take(census, self.run.pouring());
         self.instructor.looked(census);
         let burnt = self.spills.take(census, scale, hands, now);
         self.sounds.burnt(&burnt, census, scale, time);

@@ -20,7 +20,7 @@ use crate::decision::Decision;
 use crate::info::Told;
 use crate::session::spills::Spilt;
 use crate::view::View;
-use vitriol_live::{Attempts, Console, attempts, readings};
+use vitriol_live::{Console, Evaluation, readings};
 use vitriol_run::choices::{self, CHOICES};
 use vitriol_run::texts::InstructorTexts;
 
@@ -50,6 +50,8 @@ pub(super) struct Now<'a> {
     pub spilt: Spilt,
     /// All events so far.
     pub events: &'a [Event],
+    /// Gives those that there would be beside them if the attempt ended now.
+    pub so_far: &'a dyn Fn() -> Vec<Event>,
     /// The display's period, s.
     pub period: Option<f64>,
     pub missed: u64,
@@ -79,8 +81,7 @@ pub(super) struct Instructor {
     flasks: Vec<Held>,
     /// Processor times of the last frames, s.
     took: VecDeque<(Instant, f64)>,
-    /// The number of events that were evaluated, and the attempts in them.
-    attempts: (usize, Attempts),
+    evaluation: Evaluation,
     /// The number of events before the scene's start: with the first one after them its attempt has begun.
     before: usize,
     /// Whether a hand has held something since the scene's start.
@@ -112,7 +113,7 @@ impl Instructor {
             said: None,
             flasks: Vec::new(),
             took: VecDeque::new(),
-            attempts: (0, Attempts::default()),
+            evaluation: Evaluation::default(),
             before: 0,
             worked: false,
             recording: record.map(|file| whole(file).display().to_string()),
@@ -187,7 +188,8 @@ impl Instructor {
         let shown = words.message(message);
         let lately = lately.filter(|text| Some(*text) != held && **text != shown);
         Told {
-            done: held.into_iter().chain(lately).cloned().collect(),
+            paused: held.cloned(),
+            done: lately.cloned(),
             message: (!message.is_empty()).then_some(shown),
         }
     }
@@ -222,17 +224,15 @@ impl Instructor {
         let Some(port) = self.console.as_ref().map(|console| console.port.clone()) else {
             return;
         };
-        if self.attempts.0 != now.events.len() {
-            let attempts = attempts(now.events, &self.texts, now.rubric);
-            self.attempts = (now.events.len(), attempts);
-        }
+        let of = (&self.texts, now.rubric);
+        self.evaluation.follow(now.events, now.so_far, of);
         self.worked |= now.holds;
         port.publish(self.state(now));
     }
 
     fn state(&self, now: &Now<'_>) -> State {
         let (name, scene) = now.scene;
-        let attempts = &self.attempts.1;
+        let attempts = self.evaluation.attempts();
         // While time is held from its start on, an attempt has no event.
         let is_new = now.events.len() == self.before;
         let coming = now.coming.map(|name| Coming {

@@ -1,15 +1,17 @@
 //! Temperature and acid of each flask's liquid, as the panel shows them.
 
 use glam::Vec3;
-use vitriol_lesson::Texts;
+use vitriol_lesson::{Stream, Texts};
 use vitriol_run::scenery::has_acid;
 use vitriol_sim::scene::{Flask, Scene};
 use vitriol_sim::solver::{Census, Held};
 
-use crate::info::FlaskLine;
+use crate::info::{FlaskLine, Pouring};
 
 /// Observations between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
 const EVERY: u64 = 9;
+/// The same of the pour under way, whose digits are read while they change: three a second at 90 Hz. Our choice.
+const POURING_EVERY: u64 = 30;
 
 /// The last reading of a bench's flasks.
 #[derive(Default)]
@@ -18,17 +20,29 @@ pub(super) struct Readings {
     names: Vec<String>,
     /// The liquid in each flask at the last reading; empty before the first one.
     last: Vec<Held>,
+    /// The pour under way at the last reading.
+    pouring: Option<Pouring>,
     /// Observations so far.
     looks: u64,
 }
 
 impl Readings {
-    /// Takes in an observation.
-    pub fn take(&mut self, census: &Census) {
+    /// Takes in an observation, with the pour under way in it.
+    pub fn take(&mut self, census: &Census, pouring: Option<Stream>) {
         if self.looks.is_multiple_of(EVERY) {
             self.last.clone_from(&census.flasks);
         }
+        // Its beginning and its end are shown at once.
+        let changes = pouring.is_some() != self.pouring.is_some();
+        if changes || self.looks.is_multiple_of(POURING_EVERY) {
+            self.pouring = pouring.map(|it| Pouring::of(it.volume_m3, it.rate_m3_s));
+        }
         self.looks += 1;
+    }
+
+    /// The pour under way.
+    pub fn pouring(&self) -> Option<Pouring> {
+        self.pouring
     }
 
     /// Takes in that a bench with that scene is in use, and forgets readings of another one.

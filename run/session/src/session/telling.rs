@@ -17,6 +17,11 @@ use crate::info::{Info, Lying};
 /// Steps in which the panel's rings fill, per cent: the panel is drawn anew for each.
 const RING: u32 = 5;
 
+/// A share of a hold, 0 to 1, in those steps, per cent.
+fn in_rings(share: f32) -> u32 {
+    RING * (100.0 * share / RING as f32) as u32
+}
+
 impl Session {
     /// Carries out the instructor's orders; returns whether one ends the session.
     pub(super) fn obey(&mut self) -> bool {
@@ -105,6 +110,7 @@ impl Session {
             intensity: run.world.intensity(),
             spilt: self.spills.spilt,
             events: run.events(),
+            so_far: &|| run.so_far(),
             period: period.map(|info| 1e-9 * info.period_ns as f64),
             missed: self.counts.skipped,
             step: self.guide.step(run),
@@ -117,7 +123,8 @@ impl Session {
 
     /// The state that panel and window title show.
     pub(super) fn info(&mut self) -> Info {
-        let ends = self.choices.asks_to_end(Instant::now());
+        let now = Instant::now();
+        let ends = self.choices.asks_to_end(now);
         let (bench, run) = (&self.benches.current, &self.run);
         let ends_told = ends && self.guide.tells(run);
         let happened = (self.summary).shown(&self.texts.summary, run, ends_told);
@@ -138,8 +145,9 @@ impl Session {
             missed: self.counts.skipped,
             effort: self.pacing.effort(bench),
             coming: self.benches.coming().map(|it| texts.scene(it).to_owned()),
-            holding: (self.choices.holding(self.shown_at()))
-                .map(|share| RING * (100.0 * share / RING as f32) as u32),
+            holding: self.choices.holding(self.shown_at()).map(in_rings),
+            key_held: self.choices.key_held(self.shown_at(), now).map(in_rings),
+            pouring: self.readings.pouring(),
             ends,
             pointer: self.pointer,
             happened,

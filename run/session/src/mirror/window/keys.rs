@@ -79,6 +79,8 @@ pub struct Listener {
     input: Sender<Input>,
     /// Keys that are down, with what they stood for when they were pressed: Shift may have come or gone since.
     down: Vec<(PhysicalKey, DeskKey)>,
+    /// The key that is down and takes a hold.
+    held: Option<PhysicalKey>,
 }
 
 impl Listener {
@@ -87,6 +89,7 @@ impl Listener {
         Self {
             input,
             down: Vec::new(),
+            held: None,
         }
     }
 
@@ -122,6 +125,7 @@ impl Listener {
             WindowEvent::Focused(false) => {
                 self.down.clear();
                 self.send(Input::Left);
+                return self.let_go();
             }
             WindowEvent::KeyboardInput {
                 event,
@@ -136,6 +140,9 @@ impl Listener {
     fn key(&mut self, event: &KeyEvent) -> Outcome {
         let same = |it: &(PhysicalKey, DeskKey)| it.0 == event.physical_key;
         if event.state == ElementState::Released {
+            if self.held == Some(event.physical_key) {
+                return self.let_go();
+            }
             if let Some(at) = self.down.iter().position(same) {
                 let (_, key) = self.down.swap_remove(at);
                 self.send(Input::Key { key, down: false });
@@ -150,8 +157,22 @@ impl Listener {
                 Outcome::Taken
             }
             // With Ctrl a letter is a shortcut of another program, pressed by habit.
-            Some(Meaning::Decides(decision)) if !self.orbits() => Outcome::Decided(decision),
+            Some(Meaning::Decides(decision)) if !self.orbits() => {
+                let decision = decision.by_key();
+                if let Decision::Hold(_) = decision {
+                    self.held = Some(event.physical_key);
+                }
+                Outcome::Decided(decision)
+            }
             _ => Outcome::Taken,
+        }
+    }
+
+    /// The key that takes a hold is up, if one was down.
+    fn let_go(&mut self) -> Outcome {
+        match self.held.take() {
+            Some(_) => Outcome::Decided(Decision::Hold(None)),
+            None => Outcome::Taken,
         }
     }
 
