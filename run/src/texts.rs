@@ -288,6 +288,9 @@ impl InstructorTexts {
 pub struct SummaryTexts {
     /// Its title.
     pub title: String,
+    /// Its title where it is of an earlier attempt than the present one.
+    pub before: String,
+    scene: String,
     points: String,
     /// Where nothing has happened.
     pub nothing: String,
@@ -297,6 +300,11 @@ pub struct SummaryTexts {
 }
 
 impl SummaryTexts {
+    /// The scene of an earlier attempt, by its title.
+    pub fn scene(&self, title: &str) -> String {
+        self.scene.replace("{scene}", title)
+    }
+
     /// Points, of how many.
     pub fn points(&self, points: u32, of: u32) -> String {
         let text = self.points.replace("{points}", &points.to_string());
@@ -391,6 +399,7 @@ mod tests {
         assert_eq!(words.points(61, 100), "61 of 100 points");
         assert_eq!(words.more(3).as_deref(), Some("3 more in the report"));
         assert_eq!(words.more(0), None);
+        assert_eq!(words.scene("Acid into water"), "Scene: Acid into water");
     }
 
     /// Each sound has words of its own, short enough for three of them in a line of the panel.

@@ -143,8 +143,7 @@ impl FirstMinute {
     /// The lesson that is to be shown: the first one that was not done yet. Pouring is left out where there is no other vessel to pour
     /// into.
     pub fn next(&self, can_pour: bool) -> Option<Lesson> {
-        let is_new = |lesson: &Lesson| self.done[*lesson as usize].is_none();
-        let mut lessons = Lesson::ALL.into_iter().filter(is_new);
+        let mut lessons = Lesson::ALL.into_iter().filter(|it| self.is_new(*it));
         lessons.find(|lesson| can_pour || *lesson != Lesson::Pour)
     }
 
@@ -171,7 +170,13 @@ impl FirstMinute {
         }
     }
 
-    fn is_held(&self, flask: usize) -> bool {
+    /// Whether it was not done yet.
+    pub fn is_new(&self, lesson: Lesson) -> bool {
+        self.done[lesson as usize].is_none()
+    }
+
+    /// Whether a flask is in a hand.
+    pub fn is_held(&self, flask: usize) -> bool {
         self.flasks
             .get(flask)
             .is_some_and(|known| known.held.is_some())

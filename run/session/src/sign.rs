@@ -2,6 +2,7 @@
 //!
 //! It is drawn and nothing more: it is part of neither simulation nor recording.
 
+pub mod asked;
 pub mod drawing;
 pub mod place;
 mod strokes;

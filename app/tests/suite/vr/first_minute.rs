@@ -9,6 +9,7 @@ use glam::Vec3;
 use vitriol_gpu::Gpu;
 use vitriol_session::session::SessionOutcome;
 use vitriol_session::stand_in::StandIn;
+use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Track;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose, Turn, View};
@@ -25,10 +26,10 @@ const FRAMES: u64 = 304;
 /// The left eye's pictures, by frame, row by row.
 type Pictures = Rc<RefCell<BTreeMap<u64, Vec<[u8; 4]>>>>;
 
-/// Keeps the pictures of some frames; the left hand may be a bare one that is at the flask, and the right one gone.
+/// Keeps the pictures of some frames; the left hand may be a bare one that is there, and the right one gone.
 struct Looks {
     at: Vec<u64>,
-    bare: bool,
+    bare: Option<Vec3>,
     pictures: Pictures,
 }
 
@@ -45,8 +46,7 @@ impl Trouble for Looks {
     }
 
     fn frame(&mut self, frame: &mut HeadsetFrame, _: u64) {
-        if self.bare {
-            let at = FLASK + Vec3::new(-0.10, 0.05, 0.05);
+        if let Some(at) = self.bare {
             let hand = Hand {
                 active: true,
                 valid: true,
@@ -71,7 +71,18 @@ struct Session {
     views: Vec<View>,
 }
 
-fn run(gpu: &Gpu, hints: bool, frames: u64, at: &[u64], bare: bool) -> Session {
+/// In scene `two-flasks`, with controllers.
+fn run(gpu: &Gpu, hints: bool, frames: u64, at: &[u64]) -> Session {
+    run_in(gpu, hints, (frames, at), (None, None))
+}
+
+/// In the built-in scene of that name at preset `fast`, else in `two-flasks`; with a bare hand at that place, else with controllers.
+fn run_in(
+    gpu: &Gpu,
+    hints: bool,
+    (frames, at): (u64, &[u64]),
+    (scene, bare): (Option<&str>, Option<Vec3>),
+) -> Session {
     let folder = tempfile::tempdir().unwrap();
     let pictures = Pictures::default();
     let trouble = Looks {
@@ -83,6 +94,10 @@ fn run(gpu: &Gpu, hints: bool, frames: u64, at: &[u64], bare: bool) -> Session {
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (RATE, frames), trouble);
     let mut options = options(folder.path());
     options.hints = hints;
+    if let Some(scene) = scene {
+        options.plan.scene = options.plan.scenes.open(scene).unwrap();
+        options.plan.preset = Preset::Fast;
+    }
     let (outcome, track) = session_with(&mut headset, options, nobody());
     let pictures = pictures.take();
     Session {
@@ -147,13 +162,11 @@ fn projected(view: &View, place: Vec3) -> ([f32; 2], f32) {
 fn a_bare_hand_is_shown_no_trigger() {
     let gpu = gpu::device();
     let at = [4];
-    let [with, without] = [true, false].map(|hints| run(&gpu, hints, 4, &at, true));
+    let hand = Some(FLASK + Vec3::new(-0.10, 0.05, 0.05));
+    let [with, without] = [true, false].map(|hints| run_in(&gpu, hints, (4, &at), (None, hand)));
     let bare = sign(&with.pictures[&4], &without.pictures[&4]);
     keep_rgb("first-minute-bare", EXTENT, &with.pictures[&4]);
-    let place = FLASK + (0.095 + 0.02 + 0.06) * Vec3::Y;
-    let (expected, width) = projected(&with.views[3], place);
-    let off = [0, 1].map(|axis| (bare.middle[axis] - expected[axis]).abs() / width);
-    assert!(off.iter().all(|off| *off < 0.15), "{off:?}");
+    is_over_the_flask(&bare, &with.views[3]);
     assert!(
         bare.amber == 0 && bare.blue > 0,
         "{} {}",
@@ -162,8 +175,30 @@ fn a_bare_hand_is_shown_no_trigger() {
     );
 }
 
+/// The sign's middle is over the flask, to 18 mm: its rim is at 0.095 m, then 0.02 m of air and half of the sign.
+fn is_over_the_flask(sign: &Seen, view: &View) {
+    let (expected, width) = projected(view, FLASK + (0.095 + 0.02 + 0.06) * Vec3::Y);
+    let off = [0, 1].map(|axis| (sign.middle[axis] - expected[axis]).abs() / width);
+    assert!(off.iter().all(|off| *off < 0.15), "{off:?}");
+}
+
 mod long {
     use super::*;
+
+    /// The correct order pours the acid, of which there is an eighth of the water; the hand that is at the water changes nothing.
+    #[test]
+    fn the_acid_is_shown_and_not_the_water() {
+        let gpu = gpu::device();
+        let at = [4];
+        let hand = Some(BEAKER + Vec3::new(0.10, 0.05, 0.05));
+        let scene = Some("acid-into-water");
+        let [with, without] =
+            [true, false].map(|hints| run_in(&gpu, hints, (4, &at), (scene, hand)));
+        let acid = sign(&with.pictures[&4], &without.pictures[&4]);
+        keep_rgb("first-minute-acid", EXTENT, &with.pictures[&4]);
+        assert!(acid.blue > 0);
+        is_over_the_flask(&acid, &with.views[3]);
+    }
 
     #[test]
     fn each_step_has_its_sign_until_it_is_done() {
@@ -186,8 +221,8 @@ mod long {
         // Other pictures of the motion, to be looked at.
         at.extend([2.0, 4.2, 6.0].map(frame));
         at.push(FRAMES);
-        let with = run(&gpu, true, FRAMES, &at, false);
-        let without = run(&gpu, false, FRAMES, &at, false);
+        let with = run(&gpu, true, FRAMES, &at);
+        let without = run(&gpu, false, FRAMES, &at);
         for (n, picture) in &with.pictures {
             keep_rgb(&format!("first-minute-{n:03}"), EXTENT, picture);
         }

@@ -50,8 +50,10 @@ pub struct Hands {
     active: Side,
     /// A click takes, and another one puts down.
     toggles: bool,
-    /// The pointer takes a flask with the hand that a pour does not run over. Not once the user has changed hands.
+    /// The pointer takes a flask with the hand that a pour does not run over.
     chooses: bool,
+    /// The user has changed hands, and the active one has taken nothing since: it takes what is taken next.
+    chosen: bool,
     /// The eyes, and right and ahead, as the session began.
     head: Vec3,
     ahead: [Vec3; 2],
@@ -97,6 +99,7 @@ impl Hands {
             active: Side::Right,
             toggles: false,
             chooses: false,
+            chosen: false,
             head: eyes,
             ahead,
             scene: 0,
@@ -119,7 +122,8 @@ impl Hands {
         }
     }
 
-    /// These hands, of which the pointer takes a flask with that over which no pour into its neighbour runs, until the user changes hands.
+    /// These hands, of which the pointer takes a flask with that over which no pour into its neighbour runs. A change of hands by the user
+    /// holds for the next thing that is taken.
     pub fn with_choice(mut self) -> Self {
         self.chooses = true;
         self
@@ -167,7 +171,7 @@ impl Hands {
         if controls.other {
             self.movers[self.active as usize].leave();
             self.active = other(self.active);
-            self.chooses = false;
+            self.chosen = true;
         }
         let user = level(self.head);
         for mover in &mut self.movers {
@@ -202,6 +206,7 @@ impl Hands {
         });
         (self.picked, self.press, self.pending) = (None, None, None);
         (self.on_panel, self.on_glove, self.tilted) = (false, false, false);
+        self.chosen = false;
         self.lines.clear();
     }
 
@@ -281,7 +286,7 @@ impl Hands {
             true => by_ray.map(|it| it.thing),
             false => by_place(level(self.spot), around),
         };
-        let chooses = self.chooses && self.points && self.press.is_none();
+        let chooses = self.chooses && !self.chosen && self.points && self.press.is_none();
         if chooses && self.movers.iter().all(Mover::is_free) {
             let clear = self
                 .picked
@@ -367,6 +372,7 @@ impl Hands {
         let asks_glove = controls.gloves || (press && self.on_glove);
         if asks_glove && self.press.is_none() && self.can_pull(around) {
             self.movers[self.active as usize].state = State::Pulling(Pull::Goes { clear: false });
+            self.chosen = false;
             return;
         }
         let picked = self.picked.filter(|_| self.press.is_none());
@@ -386,6 +392,7 @@ impl Hands {
                 let clicks = toggles || !let_go || picked.is_some_and(goggles);
                 let begins = controls.grip || (press && clicks);
                 if let (true, Some(thing), Some(drag)) = (begins, picked, drag) {
+                    self.chosen = false;
                     mover.take(Taking {
                         thing,
                         drag,

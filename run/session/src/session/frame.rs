@@ -275,8 +275,9 @@ impl Session {
     fn hint(&mut self) {
         let (seen, time) = (self.viewed(), 1e-9 * self.shown_at() as f64);
         let bare = self.joints.each_ref().map(Option::is_some);
-        let world = &self.run.world;
-        self.hints.update(world, seen.as_ref(), bare, time);
+        let asked = self.guide.asked(&self.run);
+        let bench = (&self.run.world, asked);
+        self.hints.update(bench, seen.as_ref(), bare, time);
     }
 
     /// Acquires the headset's images, and submits the picture's part that reads the particles behind the steps, on

@@ -7,6 +7,7 @@ use vitriol_run::{Action, Blame, Failure, Judging, Run};
 
 use crate::info::Shown;
 use crate::listing::{self, Words};
+use crate::sign::asked::Asked;
 use vitriol_run::texts::LessonTexts;
 
 /// How long the panel shows why a step failed, simulated s. Our choice: it is read twice in that.
@@ -158,6 +159,21 @@ impl Guide {
             number: state.number.unwrap_or(state.steps.len() + 1) as u16,
             of: state.steps.len() as u16,
             title: Text::clipped(title.map_or(&texts.title, |step| &step.text)),
+        })
+    }
+
+    /// What a sign asks of a first user: by the lesson's step, and in a scene without a lesson by that. In an examination there is no sign,
+    /// since it would tell the step.
+    pub fn asked(&self, run: &Run) -> Asked {
+        let scene = run.world.scene();
+        let Some((course, judging)) = self.of(run) else {
+            return Asked::by_scene(scene);
+        };
+        let procedure = judging.procedure();
+        let number = procedure.state().number.filter(|_| course.mode.tells());
+        let step = number.and_then(|number| procedure.lesson().steps.get(number - 1));
+        step.map_or(Asked::Nothing, |step| {
+            Asked::by_step(&step.condition, scene, run.world.worn())
         })
     }
 

@@ -4,14 +4,16 @@ use glam::Vec3;
 use vitriol_gpu::Gpu;
 use vitriol_run::Failure;
 use vitriol_shaders::Library;
+use vitriol_sim::scene::ToolKind;
 use vitriol_sim::solver::Census;
 use vitriol_sim::world::World;
 use vitriol_xr::{PoseFrame, Side};
 
 use crate::first_minute::{FirstMinute, FirstMinuteReport, Handled, Lesson};
 use crate::sign::Sign;
+use crate::sign::asked::Asked;
 use crate::sign::drawing::{MovedBy, Pictogram};
-use crate::sign::place::{Stands, spot};
+use crate::sign::place::{Stands, Target, beside_pour, spot};
 
 /// Cosine of the tilt from which on a held flask pours, and no sign is shown: 45°. A beaker of 250 mL that is filled to two thirds pours
 /// from there on.
@@ -83,22 +85,27 @@ impl Hints {
         self.minute.looked(&self.millilitres, time);
     }
 
-    /// Takes in the frame that is shown at `time` (s), and shows what is to be done next. `seen` are head and hands in the scene's
-    /// stage, if they are known; `bare` is true of a hand without a controller.
-    pub fn update(&mut self, world: &World, seen: Option<&PoseFrame>, bare: [bool; 2], time: f64) {
+    /// Takes in the frame that is shown at `time` (s), and shows what is to be done next of what is `asked`. `seen` are head and hands in
+    /// the scene's stage, if they are known; `bare` is true of a hand without a controller.
+    pub fn update(
+        &mut self,
+        (world, asked): (&World, Asked),
+        seen: Option<&PoseFrame>,
+        bare: [bool; 2],
+        time: f64,
+    ) {
         let Some(sign) = &mut self.sign else {
             return;
         };
         let handled = handled(world);
         self.minute.update(&handled, time);
         let flasks = stand(world, &self.millilitres);
-        let can_pour = flasks.iter().filter(|it| !it.broken).count() > 1;
-        let next = self.minute.next(can_pour);
+        let next = asked.sign(&self.minute, &flasks, |kind| tool(world, kind));
         // It would lie over the stream, and over the flask that is looked at.
         let in_hand = self.minute.flask().and_then(|it| handled.get(it));
         let pours = in_hand.is_some_and(|it| it.held && it.upright < TILTED);
         let waits = self.minute.waits() || pours;
-        let (Some(lesson), Some(seen), false) = (next, seen, waits) else {
+        let (Some((lesson, target)), Some(seen), false) = (next, seen, waits) else {
             sign.hide();
             return;
         };
@@ -107,26 +114,26 @@ impl Hints {
             let known = hand.active && hand.valid;
             known.then_some(hand.stage_from_grip.position)
         });
-        let is_full = |flask: &usize| flasks.get(*flask).is_some_and(Stands::can_be_poured);
-        let (lesson, of) = match (lesson, self.minute.flask()) {
-            // It was let go, and the rest is still to be done.
-            (_, None) => (Lesson::Take, None),
-            // Nothing is in it, and something in another one: that is to be taken.
-            (Lesson::Pour, Some(flask))
-                if !is_full(&flask) && flasks.iter().any(Stands::can_be_poured) =>
-            {
-                (Lesson::Take, None)
-            }
-            same => same,
-        };
-        let Some(spot) = spot(lesson, of, self.before, &flasks, head, hands) else {
+        let Some(spot) = spot(target, self.before, &flasks, head, hands) else {
             sign.hide();
             return;
         };
-        self.before = Some(spot.flask);
-        let holder = of.and_then(|flask| world.holder(flask)).or(spot.side);
+        self.before = spot.flask;
+        let holder = match (lesson, target) {
+            (Lesson::Take, _) | (_, Target::Any | Target::Thing(_)) => spot.side,
+            (_, Target::Flask(flask) | Target::Into { from: flask, .. }) => world.holder(flask),
+        };
         if let Some(side) = holder.and_then(|side| Side::BOTH.get(side)) {
             self.side = *side;
+        }
+        let mut side = self.side;
+        if let (true, Target::Into { from, .. }) = (self.pointer, target)
+            && let (Some(from), Some(into)) =
+                (flasks.get(from), spot.flask.and_then(|it| flasks.get(it)))
+        {
+            // A mouse tilts to either side, whichever hand holds the flask.
+            let right = seen.stage_from_view.orientation * Vec3::X;
+            side = beside_pour(from, into, right);
         }
         let by = match (self.pointer, bare[self.side as usize]) {
             (true, _) => MovedBy::Mouse,
@@ -135,7 +142,11 @@ impl Hints {
         };
         let pictogram = Pictogram {
             lesson,
-            side: self.side,
+            tool: match (asked, target) {
+                (Asked::Tool(kind), Target::Thing(_)) => Some(kind),
+                _ => None,
+            },
+            side,
             by,
             toggles: self.toggles,
             step: 0,
@@ -161,6 +172,25 @@ fn handled(world: &World) -> Vec<Handled> {
             broken: world.is_broken(flask),
         })
         .collect()
+}
+
+/// A tool that no hand holds, as a sign is put over it; real metres.
+fn tool(world: &World, kind: ToolKind) -> Option<Stands> {
+    let scene = world.scene();
+    let index = scene.tools.iter().position(|tool| tool.kind == kind)?;
+    let pose = world.tools().get(index)?;
+    if world.tool_holder(index).is_some() {
+        return None;
+    }
+    let height = kind.cylinder()[1] as f32;
+    let scale = scene.scale.length_scale as f32;
+    Some(Stands {
+        middle: scale * pose.position + 0.5 * height * (pose.orientation * Vec3::Y),
+        height,
+        millilitres: 0.0,
+        can_be_taken: true,
+        broken: false,
+    })
 }
 
 /// The flasks as signs are put over them; real metres.

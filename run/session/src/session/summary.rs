@@ -73,7 +73,7 @@ impl Summary {
         self.shown.as_ref().map(|(_, happened)| happened.clone())
     }
 
-    /// The summary of the last attempt in which something happened.
+    /// The summary of the last attempt in which something happened. Where that is not the present one, it is called so, with its scene.
     fn of(&self, words: &SummaryTexts, attempts: &[Attempt]) -> Happened {
         let (title, back) = (words.title.clone(), words.back.clone());
         let happened = |it: &&Attempt| !it.pours.is_empty() || !it.incidents.is_empty();
@@ -85,23 +85,32 @@ impl Summary {
                 ..Happened::default()
             };
         };
+        let is_present = attempts.last().is_some_and(|last| happened(&last));
+        let of = (!is_present).then(|| words.scene(self.texts.scene(&attempt.scene)));
+        let room = LINES - usize::from(!is_present);
         let score = Score::of(attempt, &self.rubric, &self.texts);
-        let (said, more) = fitting(sentences(attempt, &score, &self.texts));
+        let (said, more) = fitting(sentences(attempt, &score, &self.texts), room);
+        let said = said.into_iter().map(|it| (it.tone, it.text));
         Happened {
-            title,
+            title: match is_present {
+                true => title,
+                false => words.before.clone(),
+            },
             points: (score.of > 0).then(|| words.points(score.points, score.of)),
-            said: said.into_iter().map(|it| (it.tone, it.text)).collect(),
+            said: (of.map(|scene| (Tone::Plain, scene)).into_iter())
+                .chain(said)
+                .collect(),
             more: words.more(more),
             back,
         }
     }
 }
 
-/// Sentences that fit, in their order, and how many do not: what went wrong before what went well, and that before the rest.
-fn fitting(all: Vec<Sentence>) -> (Vec<Sentence>, usize) {
+/// Sentences that fit in so many lines, in their order, and how many do not: what went wrong before what went well, and that before the
+/// rest.
+fn fitting(all: Vec<Sentence>, mut left: usize) -> (Vec<Sentence>, usize) {
     let lines = |it: &Sentence| columns(&it.text).div_ceil(LINE);
     let mut chosen = vec![false; all.len()];
-    let mut left = LINES;
     for tone in [Tone::Bad, Tone::Good, Tone::Plain] {
         for (sentence, chosen) in all.iter().zip(&mut chosen) {
             if sentence.tone == tone && lines(sentence) <= left {
@@ -136,8 +145,8 @@ mod tests {
             text: "酸".repeat(count),
             ..sentence(Tone::Bad, 0)
         };
-        assert_eq!(fitting(vec![long(LINES * LINE / 2)]).1, 0);
-        assert_eq!(fitting(vec![long(LINES * LINE / 2 + 1)]).1, 1);
+        assert_eq!(fitting(vec![long(LINES * LINE / 2)], LINES).1, 0);
+        assert_eq!(fitting(vec![long(LINES * LINE / 2 + 1)], LINES).1, 1);
     }
 
     fn sentence(tone: Tone, length: usize) -> Sentence {
@@ -154,9 +163,49 @@ mod tests {
     fn what_went_wrong_is_left_out_last() {
         let mut all: Vec<_> = (0..9).map(|_| sentence(Tone::Plain, LINE + 1)).collect();
         all.push(sentence(Tone::Bad, 2 * LINE));
-        let (said, more) = fitting(all);
+        let (said, more) = fitting(all, LINES);
         assert_eq!((said.len(), more), (LINES / 2, 10 - LINES / 2));
         assert_eq!(said.last().unwrap().tone, Tone::Bad);
-        assert_eq!(fitting(Vec::new()), (Vec::new(), 0));
+        assert_eq!(fitting(Vec::new(), LINES), (Vec::new(), 0));
+    }
+
+    /// Under another scene, or after a new start, the points of the attempt before are not taken for those of this one.
+    #[test]
+    fn an_earlier_attempt_is_called_so() {
+        use vitriol_lesson::{Cause, Event, Incident, What};
+        use vitriol_run::texts::Texts as Words;
+
+        let begun = |t_s, scene: &str| Event::Begun {
+            t_s,
+            scene: scene.to_owned(),
+            contents: Default::default(),
+            glass: Default::default(),
+        };
+        let dropped = Event::Incident(Incident {
+            t_s: 1.0,
+            until_s: 1.0,
+            what: What::Dropped {
+                flask: "source".to_owned(),
+                speed_m_s: 2.0,
+                broke: false,
+            },
+            cause: Cause::LettingGo {
+                flask: "source".to_owned(),
+            },
+            place_m: [0.0; 3],
+        });
+        let summary = Summary::new(Language::En, Rubric::default()).unwrap();
+        let words = Words::of(Language::En).unwrap().summary;
+        let of = |events: &[Event]| summary.of(&words, &Attempt::all(events.iter().cloned()));
+        let first = [begun(0.0, "acid-into-water"), dropped];
+        let present = of(&first);
+        assert_eq!(present.title, "What happened");
+        let [a, b] = first;
+        let before = of(&[a, b, begun(5.0, "water-into-acid")]);
+        assert_eq!(before.title, "What happened before");
+        assert_eq!(before.points, present.points);
+        let scene = (Tone::Plain, "Scene: Acid into water".to_owned());
+        assert_eq!(before.said[0], scene);
+        assert_eq!(before.said[1..], present.said);
     }
 }

@@ -2,6 +2,7 @@
 
 use egui::Shape;
 use glam::{Vec2, vec2};
+use vitriol_sim::scene::ToolKind;
 use vitriol_xr::Side;
 
 use super::strokes::{Beaker, Canvas, HAND, LIQUID, Part};
@@ -27,6 +28,8 @@ pub enum MovedBy {
 pub struct Pictogram {
     /// What it shows.
     pub lesson: Lesson,
+    /// The tool that is taken; `None` of a flask.
+    pub tool: Option<ToolKind>,
     /// The hand that does it.
     pub side: Side,
     /// What moves that hand, which is shown beside it.
@@ -78,13 +81,13 @@ impl Pictogram {
         Beaker { base, turn, size }
     }
 
-    /// The hand comes from the right, and closes round the beaker.
+    /// The hand comes from the right, and closes round the beaker or the tool.
     fn take(&self, canvas: &mut Canvas, progress: f32) {
         let beaker = self.beaker();
         let closed = eased(progress, [0.5, 1.0]);
         let far = 0.30 * (1.0 - eased(progress, [0.0, 0.5]));
         canvas.table([-0.74, 0.30], beaker.base.y);
-        holding(canvas, &beaker, far, closed);
+        holding(canvas, (&beaker, self.tool), far, closed);
         self.press(canvas, self.pulled(closed, closed), false);
     }
 
@@ -125,7 +128,7 @@ impl Pictogram {
         canvas.table([-0.62, 0.30], beaker.base.y);
         canvas.arrow(vec2(-0.74, 0.40), vec2(-0.74, -0.22));
         beaker.base += vec2(0.06, 0.36 * up);
-        holding(canvas, &beaker, far, 1.0 - opens);
+        holding(canvas, (&beaker, None), far, 1.0 - opens);
         let pulled = self.pulled(1.0 - opens, opens);
         self.press(canvas, pulled, !self.toggles);
     }
@@ -136,14 +139,25 @@ const CONTROLLER: Vec2 = vec2(0.22, 0.58);
 /// Where a mouse is.
 const MOUSE: Vec2 = vec2(0.20, 0.50);
 
-/// A beaker with a hand at its right, so far away and so far closed.
-fn holding(canvas: &mut Canvas, beaker: &Beaker, far: f32, closed: f32) {
+/// A beaker, or a tool in its place, with a hand at its right, so far away and so far closed.
+fn holding(
+    canvas: &mut Canvas,
+    (beaker, tool): (&Beaker, Option<ToolKind>),
+    far: f32,
+    closed: f32,
+) {
     let palm = Beaker {
         base: beaker.base + far * Vec2::X,
         ..*beaker
     };
     canvas.thumb(&palm, closed);
-    canvas.beaker(beaker, 0.55);
+    match tool {
+        Some(ToolKind::Goggles) => canvas.goggles(beaker),
+        Some(_) => canvas.gloves(beaker),
+        None => {
+            canvas.beaker(beaker, 0.55);
+        }
+    }
     canvas.hand(&palm, closed, palm.at(1.5, -0.42));
 }
 
@@ -157,7 +171,7 @@ fn lift(canvas: &mut Canvas, progress: f32) {
         turn: 0.0,
         size: 1.0,
     };
-    holding(canvas, &beaker, 0.0, 1.0);
+    holding(canvas, (&beaker, None), 0.0, 1.0);
 }
 
 /// The beaker in the hand turns about its lip, over the other one.
@@ -185,7 +199,39 @@ fn pour(canvas: &mut Canvas, progress: f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sign::strokes::AMBER;
+    use crate::sign::strokes::{AMBER, GLASS, LIQUID};
+
+    /// Over the goggles no beaker with liquid is shown, and over the gloves, which are blue, no glass.
+    #[test]
+    fn a_tool_is_not_shown_as_a_beaker() {
+        let colours = |tool| {
+            let picture = Pictogram {
+                lesson: Lesson::Take,
+                tool,
+                side: Side::Right,
+                by: MovedBy::Fingers,
+                toggles: false,
+                step: 0,
+            };
+            let shapes = picture.shapes(100.0).into_iter();
+            let mut has = [false; 2];
+            for shape in shapes {
+                let colour = match shape {
+                    Shape::Path(path) => path.fill,
+                    Shape::Circle(circle) if circle.fill == egui::Color32::TRANSPARENT => {
+                        circle.stroke.color
+                    }
+                    Shape::Circle(circle) => circle.fill,
+                    _ => continue,
+                };
+                has = [has[0] || colour == LIQUID, has[1] || colour == GLASS];
+            }
+            has
+        };
+        assert_eq!(colours(None), [true, true]);
+        assert_eq!(colours(Some(ToolKind::Goggles)), [false, true]);
+        assert_eq!(colours(Some(ToolKind::Gloves)), [true, false]);
+    }
 
     /// A right hand holds the beaker from the right and pours to the left, and the mouse goes there too.
     #[test]
@@ -193,6 +239,7 @@ mod tests {
         for (side, way) in [(Side::Right, -1.0), (Side::Left, 1.0)] {
             let picture = Pictogram {
                 lesson: Lesson::Pour,
+                tool: None,
                 side,
                 by: MovedBy::Mouse,
                 toggles: false,

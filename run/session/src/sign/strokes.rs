@@ -187,6 +187,27 @@ impl Canvas {
         surface
     }
 
+    /// Goggles in a beaker's place: two glasses with a strap.
+    pub fn goggles(&mut self, place: &Beaker) {
+        for side in [-1.0_f32, 1.0] {
+            let ends = [(0.30_f32, 0.24), (0.38, 0.40)].map(|(x, y)| place.at(side * x, y));
+            self.line(ends, LINE, THING);
+            self.ring(place.at(0.15 * side, 0.18), 0.14 * place.size, LINE, GLASS);
+        }
+    }
+
+    /// A box of gloves in a beaker's place, out of which one looks.
+    pub fn gloves(&mut self, place: &Beaker) {
+        for n in 0..4 {
+            let x = -0.12 + 0.08 * n as f32;
+            let ends = [place.at(x, 0.30), place.at(1.3 * x, 0.58)];
+            self.line(ends, 0.035 * place.size, LIQUID);
+        }
+        let low = HALF + LIP;
+        let corners = [(-low, 0.0), (low, 0.0), (low, 0.36), (-low, 0.36)];
+        self.polygon(&corners.map(|(x, y)| place.at(x, y)), THING);
+    }
+
     /// What a beaker stands on, at that height.
     pub fn table(&mut self, ends: [f32; 2], height: f32) {
         let ends = ends.map(|x| vec2(x, height - 2.0 * LINE));

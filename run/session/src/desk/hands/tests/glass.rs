@@ -183,8 +183,8 @@ fn keys_alone_pour() {
     }
 }
 
-/// The pointer takes each flask with the hand that is above the lip as it is poured into the other one, since liquid falls. After `Tab` it is
-/// the user who says which hand.
+/// The pointer takes each flask with the hand that is above the lip as it is poured into the other one, since liquid falls. After `Tab` the
+/// user's hand takes one thing.
 #[test]
 fn the_hand_beside_which_a_pour_falls_takes_a_flask() {
     for (thing, at, side, way) in [
@@ -216,6 +216,14 @@ fn the_hand_beside_which_a_pour_falls_takes_a_flask() {
     bench.press();
     bench.wait(1.0);
     assert_eq!(bench.around.holds, [Some(TARGET), None]);
+    bench.release();
+    bench.wait(6.0);
+    bench.stands(TARGET);
+    bench.point(at_target());
+    bench.wait(3.0);
+    bench.press();
+    bench.wait(1.0);
+    assert_eq!(bench.around.holds, [None, Some(TARGET)]);
 }
 
 /// Tilted with its lip lower than the other's rim, it comes over that by keys that are only tapped.

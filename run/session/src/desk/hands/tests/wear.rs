@@ -68,6 +68,37 @@ fn goggles_that_are_dragged_are_put_down() {
     bench.stands(TARGET);
 }
 
+/// `Tab` is for the second glove alone: then the pointer takes the target with the hand beside which its pour falls, as it would without.
+#[test]
+fn gloves_leave_the_choice_of_the_hand_as_it_was() {
+    let mut around = two_flasks();
+    let pose = Pose::new(Vec3::new(0.30, TABLE, -0.20), Quat::IDENTITY);
+    let glove_box = around.things.len();
+    around
+        .things
+        .push(thing([0.08, 0.08, 0.09], pose, Kind::Gloves));
+    let at = pose.position + 0.045 * Vec3::Y;
+    let mut bench = Bench::new(around, RATES[0]);
+    bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
+    for side in [Side::Right, Side::Left] {
+        bench.controls.other = side == Side::Left;
+        bench.point(at);
+        bench.wait(3.0);
+        bench.press();
+        bench.wait(1.0);
+        assert_eq!(bench.around.holds[side as usize], Some(glove_box));
+        bench.release();
+        bench.wait(4.0);
+        assert_eq!(bench.around.holds, [None; 2]);
+    }
+    assert_eq!(bench.hands.active(), Side::Left);
+    bench.point(at_target());
+    bench.wait(3.0);
+    bench.press();
+    bench.wait(1.0);
+    assert_eq!(bench.around.holds, [None, Some(TARGET)]);
+}
+
 /// Pulled off by key, and by a click on the glove, also from a hand that is at a flask.
 #[test]
 fn gloves_are_pulled_off() {
