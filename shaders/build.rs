@@ -26,6 +26,11 @@ use error::ShaderError;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=wgsl");
+    // A build by the profile `bench` has debug assertions too, and `target/release` may hold it.
+    println!("cargo::rustc-check-cfg=cfg(watching)");
+    if std::env::var("PROFILE")? == "debug" {
+        println!("cargo::rustc-cfg=watching");
+    }
     let root = Path::new(&std::env::var("CARGO_MANIFEST_DIR")?).join("wgsl");
     let out = std::env::var("OUT_DIR")?;
 

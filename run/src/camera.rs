@@ -2,6 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
+use vitriol_lesson::Language;
 use vitriol_render::{
     ColourBy, Fov, Foveation, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc,
     RenderError, Renderer, SteamSource, Tint, View,
@@ -16,7 +17,7 @@ use vitriol_xr::Hand;
 
 use crate::failure::{Blame, Failure, blame_render};
 use crate::hands::Gloves;
-use crate::legend::{Legend, draw_tints};
+use crate::legend::Words;
 use crate::marks::{Carriers, Marks};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards, tint};
 use crate::stage;
@@ -107,6 +108,8 @@ pub struct Shot {
     pub look: Option<Look>,
     /// Where it is sharp; `None` for everywhere, as in every film.
     pub foveation: Option<Foveation>,
+    /// Language of its legend.
+    pub language: Language,
 }
 
 impl Shot {
@@ -121,6 +124,7 @@ impl Shot {
             room: None,
             look: None,
             foveation: None,
+            language: Language::default(),
         }
     }
 }
@@ -144,6 +148,7 @@ pub struct Camera {
     marks: Marks,
     /// Whether it is where the user's eyes are, behind the goggles.
     pub(crate) is_head: bool,
+    words: Words,
 }
 
 impl Camera {
@@ -185,6 +190,7 @@ impl Camera {
             celsius: 20.0,
             marks: Marks::default(),
             is_head: false,
+            words: Words::of(shot.language)?,
         })
     }
 
@@ -242,13 +248,9 @@ impl Camera {
     pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
         let mut picture = self.shoot_bare(world, colour)?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        if colour != Colour::Liquid {
-            if let Some(legend) = Legend::of(self.colour_by(world, colour)) {
-                legend.draw(&mut picture, width);
-            }
-        } else if self.tint == Tint::Artificial && has_acid(world.scene()) {
-            draw_tints(&mut picture, width);
-        }
+        let colours = (colour != Colour::Liquid).then(|| self.colour_by(world, colour));
+        let tinted = self.tint == Tint::Artificial && has_acid(world.scene());
+        (self.words).draw(&mut picture, width, colours, tinted);
         Ok(picture)
     }
 

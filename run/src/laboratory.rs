@@ -7,6 +7,7 @@ mod sampled;
 use std::sync::Arc;
 
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_lesson::Language;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
@@ -67,6 +68,8 @@ pub struct Setup<'a> {
     pub directed: bool,
     /// Where a fixed camera is; `None` for the tripod.
     pub look: Option<Look>,
+    /// Language of the pictures' legends.
+    pub language: Language,
     /// The shaders; where it watches a folder, what changes there is reloaded
     /// between two steps.
     pub shaders: Arc<Library>,
@@ -97,6 +100,7 @@ impl<'a> Setup<'a> {
             head: None,
             directed: false,
             look: None,
+            language: Language::default(),
             shaders: Arc::new(Library::embedded()),
         }
     }
@@ -188,6 +192,7 @@ impl Laboratory {
             tint: setup.tint,
             room: setup.room,
             look: setup.look,
+            language: setup.language,
             ..Shot::of(extent)
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;

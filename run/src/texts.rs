@@ -10,7 +10,7 @@ use serde::Deserialize;
 use vitriol_lesson::{Language, Template};
 use vitriol_sound::Caption;
 
-pub use self::grades::{FilesTexts, GradesTexts, Otherwise};
+pub use self::grades::{FilesTexts, GradesTexts, Otherwise, VerifiedTexts};
 
 /// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -29,6 +29,20 @@ pub struct Texts {
     pub grades: GradesTexts,
     /// What of a recording is not whole.
     pub track: TrackTexts,
+    /// Texts in a film's pictures.
+    pub legend: LegendTexts,
+}
+
+/// Texts in a film's pictures, of Latin letters.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LegendTexts {
+    /// Title of the scale of temperature.
+    pub temperature: String,
+    /// Title of the scale of acid.
+    pub acid: String,
+    /// Note that the tints are artificial.
+    pub tints: String,
 }
 
 /// What of a recording is not whole.

@@ -52,14 +52,14 @@ impl Library {
         Self::from_sources(EMBEDDED.iter().copied())
     }
 
-    /// In a development build the files in this crate's `wgsl` folder, in any build the folder
+    /// In a build by the profile `dev` the files in this crate's `wgsl` folder, in any build the folder
     /// that the environment variable `VITRIOL_SHADERS` names; those built in where there is no
     /// such folder.
     pub fn watching() -> Self {
         if let Some(folder) = std::env::var_os("VITRIOL_SHADERS") {
             return Self::watching_at(folder);
         }
-        if cfg!(debug_assertions) {
+        if cfg!(watching) {
             return Self::watching_at(concat!(env!("CARGO_MANIFEST_DIR"), "/wgsl"));
         }
         Self::embedded()

@@ -50,6 +50,19 @@ pub struct LessonArgs {
 pub enum LessonCommand {
     /// Write the file of a new lesson, with texts in one language and each key explained; no file is overwritten
     New(NewLessonArgs),
+    /// Check a lesson and show it, as without the word `check`
+    Check(CheckLessonArgs),
+}
+
+/// Arguments of `vitriol lesson check`.
+#[derive(Debug, Args)]
+pub struct CheckLessonArgs {
+    /// A TOML file or a built-in lesson's name
+    #[arg(value_name = "LESSON")]
+    pub lesson: String,
+    /// Language of its texts and of its faults: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
 }
 
 /// Arguments of `vitriol lesson new`.

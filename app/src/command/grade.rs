@@ -58,11 +58,12 @@ pub fn run(
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync,
 ) -> Result<(), Failure> {
     let (class, failure) = grade(args, format, prepare)?;
-    emit(format, &class, table::text)?;
+    let words = Words::of(args.language)?;
+    emit(format, &class, |class| table::text(class, &words))?;
     match failure {
         Some(Failure::Input(_)) if class.graded > 0 && !args.strict => {
-            let files = Words::of(args.language)?.grades.files;
-            let names = class.bad(&files);
+            let files = &words.grades.files;
+            let names = class.bad(files);
             tracing::warn!("{}", files.bad.fill(&[("names", &names)]));
             Ok(())
         }
@@ -123,9 +124,7 @@ pub fn grade(
     };
     let ended = at_a_time(args.at_a_time(), &tracks.all, one)?;
 
-    // A call for one track leaves its result alone: others like it may run beside it.
-    let several = tracks.all.len() > 1 || args.tracks.iter().any(|it| it.is_dir());
-    let out = args.out.as_deref().filter(|_| several);
+    let out = args.out.as_deref();
     let mut class = Class {
         lessons: expected
             .iter()

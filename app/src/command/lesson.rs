@@ -61,22 +61,21 @@ pub fn run(
     format: Format,
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
-    if let Some(LessonCommand::New(new)) = &args.command {
-        return new::write(new, format);
-    }
-    let texts = Texts::of(args.language).other()?;
+    let (name, language) = match &args.command {
+        Some(LessonCommand::New(new)) => return new::write(new, format),
+        Some(LessonCommand::Check(check)) => (Some(&check.lesson), check.language),
+        None => (args.lesson.as_ref(), args.language),
+    };
+    let texts = Texts::of(language).other()?;
     let modes = |told: &Told, lesson: &Lesson| -> String {
         let names = lesson.modes.iter().map(|mode| texts.mode(*mode));
         format!("{}: {}", told.name, names.collect::<Vec<_>>().join(", "))
     };
-    let Some(name) = &args.lesson else {
+    let Some(name) = name else {
         let names = Lesson::builtin_names().into_iter();
-        let lessons = names.map(|name| open(name, args.language));
+        let lessons = names.map(|name| open(name, language));
         let lessons: Vec<Lesson> = lessons.collect::<Result<_, _>>()?;
-        let told = lessons
-            .iter()
-            .map(|it| of(it, args.language, &texts))
-            .collect();
+        let told = lessons.iter().map(|it| of(it, language, &texts)).collect();
         return emit(format, &All { lessons: told }, |all| {
             let lines = all.lessons.iter().zip(&lessons);
             let lines =
@@ -89,8 +88,8 @@ pub fn run(
         let text = text.ok_or_else(|| texts.fault.toml.fill(&[("name", name)]));
         return emit(format, &text.input()?, |text| (*text).to_owned());
     }
-    let lesson = open(name, args.language)?;
-    let told = of(&lesson, args.language, &texts);
+    let lesson = open(name, language)?;
+    let told = of(&lesson, language, &texts);
     if told.points != PERCENT {
         let warning = texts.fault.hundred.fill(&[
             ("name", &escaped(name)),

@@ -169,6 +169,7 @@ fn replay(
         room: args.drawn.room,
         head,
         directed: args.camera == CameraName::Director,
+        language: args.language,
         shaders: Arc::new(Library::watching()),
         ..plan.setup(args.device.as_deref())
     })?;

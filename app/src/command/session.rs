@@ -156,7 +156,12 @@ impl<'a> Prepared<'a> {
             }
             Err(failure) => Some(failure),
         };
-        emit(self.format, &report, report::describe)?;
+        let recorded = report.outcome.recorded.is_some();
+        let file = self.args.record.as_deref().filter(|_| recorded);
+        let next = file.map(|file| report::next(file, self.args.lesson.as_deref()));
+        emit(self.format, &report, |it| {
+            report::describe(it) + next.as_deref().unwrap_or_default()
+        })?;
         failure.map_or(Ok(()), Err)
     }
 }

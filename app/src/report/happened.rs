@@ -142,8 +142,8 @@ fn part(sentence: &Template, points: &str, of: u32) -> String {
     sentence.fill(&[("points", points), ("of", &of.to_string())])
 }
 
-/// Outcome of a step or a rule, in words.
-fn became(line: &VerdictLine, texts: &Texts) -> String {
+/// Outcome of a step or a rule, in words, and why it has less than full points all the same.
+fn became(verdict: &Verdict, line: &VerdictLine, texts: &Texts) -> String {
     let report = &texts.report;
     let word = match line.became() {
         Became::Done => &report.done,
@@ -152,9 +152,20 @@ fn became(line: &VerdictLine, texts: &Texts) -> String {
         Became::Kept => &report.kept,
         Became::Broken => &report.broken,
     };
-    match &line.why {
-        Some(why) => format!("{word}. {}", texts.why(why)),
-        None => word.to_string(),
+    let fewer = (line.met && line.points < line.of).then(|| match line.rule {
+        true => {
+            let steps = || verdict.lines.iter().filter(|it| !it.rule);
+            let earned: u32 = steps().map(|it| it.points).sum();
+            let of: u32 = steps().map(|it| it.of).sum();
+            part(&report.share_of_steps, &earned.to_string(), of)
+        }
+        false => report.after_failure.to_string(),
+    });
+    let why = line.why.as_ref().map(|why| texts.why(why));
+    let sentences: Vec<String> = why.into_iter().chain(fewer).collect();
+    match sentences.is_empty() {
+        true => word.to_string(),
+        false => format!("{word}. {}", sentences.join(" ")),
     }
 }
 
@@ -170,7 +181,7 @@ fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
                     ul.said {
                         li {
                             (moment(line.evidence_s, texts, film))
-                            p { (became(line, texts)) }
+                            p { (became(verdict, line, texts)) }
                         }
                     }
                 }
@@ -374,7 +385,7 @@ fn proof(evidence: &[Evidence], texts: &Texts, film: bool) -> Markup {
 fn moment(t_s: Option<f64>, texts: &Texts, film: bool) -> Markup {
     html! {
         @if let Some(t_s) = t_s {
-            @let text = clock(t_s);
+            @let text = texts.with_decimal(&clock(t_s));
             @if film {
                 a.moment href=(format!("#t={t_s:.3}")) title=(texts.report.show) { (text) }
             } @else {

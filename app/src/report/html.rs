@@ -58,9 +58,9 @@ impl Report {
             ("particles", &grouped(self.fluid_particles)),
             (
                 "size",
-                &with_unit(self.scene.d_m, units::length(self.scene.d_m)),
+                &texts.with_decimal(&with_unit(self.scene.d_m, units::length(self.scene.d_m))),
             ),
-            ("time", &three_digits(self.simulated_s)),
+            ("time", &texts.with_decimal(&three_digits(self.simulated_s))),
             ("device", &self.device.name),
         ]);
         html! {
@@ -72,46 +72,47 @@ impl Report {
     fn figures(&self, texts: &Texts) -> Markup {
         let pace = self.wall_s / self.simulated_s.max(f64::MIN_POSITIVE);
         let words = &texts.figure;
-        let pace = words.wall_s_note.fill(&[("pace", &three_digits(pace))]);
+        let pace = texts.with_decimal(&three_digits(pace));
+        let pace = words.wall_s_note.fill(&[("pace", &pace)]);
         html! {
             section.figures aria-label=(texts.report.figures) {
-                (figure("density_error_mean", &words.density_error_mean,
+                (figure(texts, "density_error_mean", &words.density_error_mean,
                     &percent(self.density_error_mean), &words.density_error_mean_note, false))
-                (figure("density_error_p99", &words.density_error_p99,
+                (figure(texts, "density_error_p99", &words.density_error_p99,
                     &percent(self.density_error_p99), &words.density_error_p99_note, false))
-                (figure("lost_particles", &words.lost_particles,
+                (figure(texts, "lost_particles", &words.lost_particles,
                     &grouped(self.lost_particles), &words.lost_particles_note,
                     self.lost_particles > 0))
-                (figure("nan_particles", &words.nan_particles,
+                (figure(texts, "nan_particles", &words.nan_particles,
                     &grouped(self.nan_particles), &words.nan_particles_note,
                     self.nan_particles > 0))
                 @if let Some(hottest) = self.hottest() {
-                    (figure("temperature_max_c", &words.temperature_max_c,
+                    (figure(texts, "temperature_max_c", &words.temperature_max_c,
                         &format!("{hottest:.1} °C"), &words.temperature_max_c_note, false))
                 }
                 @if let Some(ledger) = self.ledger_at_end() {
-                    (figure("steam_kg", &words.steam_kg,
+                    (figure(texts, "steam_kg", &words.steam_kg,
                         &with_unit(ledger.steam_kg, units::mass(ledger.steam_kg)),
                         &words.steam_kg_note, false))
                     @if ledger.spray_fallen_kg > 0.0 {
-                        (figure("spray_fallen_kg", &words.spray_fallen_kg,
+                        (figure(texts, "spray_fallen_kg", &words.spray_fallen_kg,
                             &with_unit(ledger.spray_fallen_kg, units::mass(ledger.spray_fallen_kg)),
                             &words.spray_fallen_kg_note, false))
                     }
                     @let air = ledger.air_kg / AIR_DENSITY;
                     @if air > 0.0 {
-                        (figure("air_kg", &words.air_kg,
+                        (figure(texts, "air_kg", &words.air_kg,
                             &with_unit(air, units::volume(air)), &words.air_kg_note, false))
                     }
-                    (figure("ledger_closure", &words.ledger_closure,
+                    (figure(texts, "ledger_closure", &words.ledger_closure,
                         &format!("{:.1e}", ledger.closure.abs()),
                         &words.ledger_closure_note, ledger.closure.abs() > 1e-4))
                 }
                 @for said in texts.boiling(&self.boiling) {
-                    (figure(said.key, &said.name, &said.value, &said.note, false))
+                    (figure(texts, said.key, &said.name, &said.value, &said.note, false))
                 }
-                (figure("frames", &words.frames, &grouped(self.frames), &words.frames_note, false))
-                (figure("wall_s", &words.wall_s, &format!("{} s", three_digits(self.wall_s)), &pace, false))
+                (figure(texts, "frames", &words.frames, &grouped(self.frames), &words.frames_note, false))
+                (figure(texts, "wall_s", &words.wall_s, &format!("{} s", three_digits(self.wall_s)), &pace, false))
             }
         }
     }
@@ -157,7 +158,11 @@ impl Report {
                         ("frames", &grouped(film.frames)),
                     ])) " "
                     @if let Some(idle) = left_out(film, self.simulated_s) {
-                        (report.idle.fill(&[("idle", &idle), ("whole", &three_digits(self.simulated_s))])) " "
+                        @let whole = three_digits(self.simulated_s);
+                        (report.idle.fill(&[
+                            ("idle", &texts.with_decimal(&idle)),
+                            ("whole", &texts.with_decimal(&whole)),
+                        ])) " "
                     }
                     @if self.attempts.is_empty() { (report.click) } @else { (report.click_words) }
                 }
@@ -187,13 +192,13 @@ impl Report {
                         @for (index, (place, kg)) in self.mass_kg.places().enumerate() {
                             tr {
                                 th scope="row" { i class=(colour_class(index)) {} (self.place(place, texts)) }
-                                td.number { (with_unit(kg, unit)) }
-                                td.number { (format!("{:.1} %", share(kg) * 100.0)) }
+                                td.number { (texts.with_decimal(&with_unit(kg, unit))) }
+                                td.number { (texts.with_decimal(&format!("{:.1} %", share(kg) * 100.0))) }
                             }
                         }
                     }
                     tfoot {
-                        tr { th scope="row" { (report.all) } td.number { (with_unit(total, unit)) } td {} }
+                        tr { th scope="row" { (report.all) } td.number { (texts.with_decimal(&with_unit(total, unit))) } td {} }
                     }
                 }
             }
@@ -346,8 +351,16 @@ impl Report {
     }
 }
 
-fn figure(key: &str, name: &dyn Display, value: &str, note: &dyn Display, bad: bool) -> Markup {
+fn figure(
+    texts: &Texts,
+    key: &str,
+    name: &dyn Display,
+    value: &str,
+    note: &dyn Display,
+    bad: bool,
+) -> Markup {
     let (name, note) = (name.to_string(), note.to_string());
+    let value = texts.with_decimal(value);
     html! {
         div.figure.bad[bad] {
             p.name { (name) }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use vitriol::cli::Cli;
+use vitriol_lesson::{Lesson, Mode};
 use vitriol_sim::scene::Scene;
 
 fn root() -> PathBuf {
@@ -213,7 +214,8 @@ fn commands_flags_and_scenes_are_there() {
     cli.build();
     let every: BTreeSet<_> = cli.get_subcommands().flat_map(flags).collect();
     let scenes = Scene::builtin_names();
-    let mut commands = 0;
+    let lessons = Lesson::builtin_names();
+    let (mut commands, mut modes) = (0, 0);
     for (page, text) in texts(&repository(), &["md"]) {
         // What is gone is told there.
         if page == "CHANGELOG.md" {
@@ -233,6 +235,7 @@ fn commands_flags_and_scenes_are_there() {
                 }
                 _ => continue,
             };
+            let mut lesson = None;
             while let Some(word) = words.next() {
                 let word = word.trim_start_matches('[').trim_end_matches(']');
                 let flag = word.starts_with('-') && word.len() > 1;
@@ -242,8 +245,18 @@ fn commands_flags_and_scenes_are_there() {
                 if word == "--scene" && name && !value.is_empty() {
                     assert!(scenes.contains(&value), "{page}: {value} of `{span}`");
                 }
+                if word == "--lesson" && lessons.contains(&value) {
+                    lesson = Some(Lesson::builtin(value).unwrap());
+                }
+                let is_mode = word == "--mode" && name && !value.is_empty();
+                if let Some(lesson) = lesson.as_ref().filter(|_| is_mode) {
+                    let mode: Mode = value.parse().unwrap();
+                    assert!(lesson.modes.contains(&mode), "{page}: {value} of `{span}`");
+                    modes += 1;
+                }
             }
         }
     }
     assert!(commands > 20, "{commands} commands were found");
+    assert!(modes > 0, "no lesson's mode was found");
 }

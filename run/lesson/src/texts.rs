@@ -107,8 +107,8 @@ section!(GlassTexts: water acid layers empty left right nth);
 section!(Done: water_into_acid acid_into_water);
 section!(Forms: label subject into of);
 section!(pub ReportTexts, "Headings and fixed sentences of a report.": kicker kicker_told happened wrong well other instructor
-    score score_of attempt lesson lesson_again criterion points evidence step rule done failed missed kept broken in_all judged
-    not_judged part total at_most uncapped line no_points show film frames idle click click_words liquid speed temperature acid
+    score score_of attempt lesson lesson_again criterion points evidence step rule done failed missed kept broken share_of_steps
+    after_failure in_all judged not_judged part total at_most uncapped line no_points show film frames idle click click_words liquid speed temperature acid
     solver figures ran none_lost whereabouts shares place mass share all table floor air over_time unsampled made_by hash numbers
     incidents);
 section!(pub FigureTexts, "Names of figures of a run, each with its note.": density_error_mean density_error_mean_note

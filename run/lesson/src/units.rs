@@ -108,7 +108,8 @@ impl Texts {
         unit.fill(&[("number", &number)])
     }
 
-    fn with_decimal(&self, number: &str) -> String {
+    /// A number that was written with a decimal point, with the mark of this language.
+    pub fn with_decimal(&self, number: &str) -> String {
         number.replace('.', &self.number.decimal.text())
     }
 }

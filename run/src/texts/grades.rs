@@ -1,5 +1,7 @@
 //! Texts of a class's grades: the table and its page.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::Template;
 
@@ -25,6 +27,16 @@ pub struct GradesTexts {
     pub cap: String,
     /// Head of the column of lessons.
     pub lesson: String,
+    /// Head of the column of incidents and notes, in a terminal.
+    pub notes: String,
+    /// Of a recording that is not graded, in the column of points of a terminal.
+    pub not_graded: String,
+    /// Likewise of one that could not be read.
+    pub failed: String,
+    /// How many results an earlier call left.
+    pub taken: Template,
+    /// How many attempts a simulation finds otherwise.
+    pub refuted: Template,
     /// Where nothing went wrong.
     pub nothing: String,
     /// Where an attempt has no end.
@@ -33,6 +45,8 @@ pub struct GradesTexts {
     pub verified: VerifiedTexts,
     /// What is wrong with the files of a class.
     pub files: FilesTexts,
+    /// Kinds of incidents in a word or two, by their names in a recording.
+    kind: BTreeMap<String, String>,
     made: MadeTexts,
     unread: String,
     otherwise: String,
@@ -127,6 +141,11 @@ pub enum Otherwise {
 }
 
 impl GradesTexts {
+    /// A kind of incident in a word or two; of one without a text its name.
+    pub fn kind<'a>(&'a self, name: &'a str) -> &'a str {
+        self.kind.get(name).map_or(name, String::as_str)
+    }
+
     /// A recording could not be read, for this cause.
     pub fn unread(&self, why: &str) -> String {
         self.unread.replace("{why}", why)

@@ -95,10 +95,8 @@ fn ready(
         eyes,
         liquid: Some(drawn_liquid(&world)),
         filter: args.filter,
-        tint: None,
-        room: None,
-        look: None,
         foveation,
+        ..Shot::of(extent)
     };
     let mut camera = Camera::new(gpu, &library, scene, &shot)?;
     let aspect = extent[0] as f32 / extent[1] as f32;

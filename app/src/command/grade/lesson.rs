@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
-use vitriol_lesson::{Lesson, Mode};
+use vitriol_lesson::{Lesson, Mode, ReportTexts};
 use vitriol_run::units::count;
 
 use super::agreement::{Agreement, Tolerance};
@@ -53,17 +53,18 @@ impl OfLesson {
         }
     }
 
-    /// Points, of how many.
-    pub fn mark(&self) -> String {
-        format!("{} of {}", self.points, self.of)
-    }
-
     /// What was not done or kept, in a few words; empty where all was.
-    pub fn unmet(&self) -> String {
-        let bad = self.items.iter();
-        let bad = bad.filter(|it| !["done", "kept"].contains(&it.became));
-        let bad: Vec<String> = bad.map(|it| format!("{} {}", it.id, it.became)).collect();
-        bad.join(", ")
+    pub fn unmet(&self, texts: &ReportTexts) -> String {
+        let bad = self.items.iter().filter_map(|it| {
+            let became = match it.became {
+                "failed" => &texts.failed,
+                "missed" => &texts.missed,
+                "broken" => &texts.broken,
+                _ => return None,
+            };
+            Some(format!("{} {became}", it.id))
+        });
+        bad.collect::<Vec<_>>().join(", ")
     }
 }
 

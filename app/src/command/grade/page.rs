@@ -6,7 +6,6 @@ use vitriol_lesson::Evidence;
 use vitriol_run::page::page_in;
 
 use super::table::{Class, Line};
-use super::verify::Verdict;
 use super::wrong::Words;
 
 const STYLE: &str = include_str!("grades.css");
@@ -22,6 +21,8 @@ pub fn html(class: &Class, words: &Words) -> String {
         words,
         scenes: class.scenes.len() > 1,
         lessons: !class.lessons.is_empty(),
+        points: class.lines.iter().any(|it| it.of.is_some_and(|of| of > 0)),
+        caps: class.lines.iter().any(|it| !it.caps.is_empty()),
         verified: class.is_verified(),
     };
     let body = html! {
@@ -32,7 +33,7 @@ pub fn html(class: &Class, words: &Words) -> String {
                 p.lead { (texts.counted(class.graded, class.otherwise, class.failed)) }
                 p.note.sort { (texts.sort) }
             }
-            section {
+            section.wide {
                 table.grades {
                     thead { (shown.heads()) }
                     tbody { @for line in &class.lines { (shown.row(line)) } }
@@ -44,11 +45,13 @@ pub fn html(class: &Class, words: &Words) -> String {
     page_in(words.texts.language().code(), &texts.title, STYLE, &body)
 }
 
-/// Which columns are shown.
+/// Which columns are shown: one without any entry takes room from the others.
 struct Shown<'a> {
     words: &'a Words,
     scenes: bool,
     lessons: bool,
+    points: bool,
+    caps: bool,
     verified: bool,
 }
 
@@ -60,16 +63,16 @@ impl Shown<'_> {
                 (head(&texts.student, false))
                 @if self.scenes { (head(&texts.scene, false)) }
                 @if self.lessons { (head(&texts.lesson, true)) }
-                (head(&texts.points, true))
+                @if self.points { (head(&texts.points, true)) }
                 (head(&texts.first_wrong, true))
-                (head(&texts.cap, false))
+                @if self.caps { (head(&texts.cap, false)) }
                 @if self.verified { (head(&texts.verified.head, false)) }
             }
         }
     }
 
     fn row(&self, line: &Line) -> Markup {
-        let lesson = line.lesson.as_ref();
+        let (lesson, texts) = (line.lesson.as_ref(), &self.words.grades);
         html! {
             tr {
                 th scope="row" {
@@ -79,26 +82,15 @@ impl Shown<'_> {
                         (line.student)
                     }
                 }
-                @if self.scenes { td { (self.words.texts.scene(&line.scene)) } }
+                @if self.scenes { td data-head=(texts.scene) { (self.words.texts.scene(&line.scene)) } }
                 @if self.lessons {
-                    (points(lesson.map(|it| (it.points, it.of))))
+                    (points(&texts.lesson, lesson.map(|it| (it.points, it.of))))
                 }
-                (points(line.points.zip(line.of)))
+                @if self.points { (points(&texts.points, line.points.zip(line.of))) }
                 (self.first_wrong(line))
-                td { @for cap in &line.caps { p { (cap) } } }
-                @if self.verified { td { (self.verdict(line)) } }
+                @if self.caps { td data-head=(texts.cap) { @for cap in &line.caps { p { (cap) } } } }
+                @if self.verified { td data-head=(texts.verified.head) { (line.verified.map_or("–", |it| it.said(&texts.verified))) } }
             }
-        }
-    }
-
-    /// Whether a simulation found what the recording says.
-    fn verdict(&self, line: &Line) -> &str {
-        let texts = &self.words.grades.verified;
-        match line.verified {
-            None => "–",
-            Some(Verdict::ToTheBit) => &texts.to_the_bit,
-            Some(Verdict::WithinTolerance) => &texts.within_tolerance,
-            Some(Verdict::Differs) => &texts.differs,
         }
     }
 
@@ -112,7 +104,7 @@ impl Shown<'_> {
             _ => "Infinity".to_owned(),
         };
         html! {
-            td data-sort=(moment) {
+            td.wrong data-head=(texts.first_wrong) data-sort=(moment) {
                 @if let Some(wrong) = wrong {
                     p { (self.words.texts.told(wrong)) }
                 } @else if line.attempt.is_some() {
@@ -134,13 +126,13 @@ fn head(text: &str, number: bool) -> Markup {
     }
 }
 
-/// Points, of how many.
-fn points(points: Option<(u32, u32)>) -> Markup {
+/// Points, of how many, in the column of that head.
+fn points(head: &str, points: Option<(u32, u32)>) -> Markup {
     html! {
         @if let Some((points, of)) = points.filter(|(_, of)| *of > 0) {
-            td.points-of data-sort=(points) { (points) " / " (of) }
+            td.points-of data-head=(head) data-sort=(points) { (points) " / " (of) }
         } @else {
-            td.points-of data-sort="-1" { "–" }
+            td.points-of data-head=(head) data-sort="-1" { "–" }
         }
     }
 }

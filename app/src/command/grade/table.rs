@@ -1,7 +1,6 @@
 //! The table of a class: for people, for a spreadsheet, for other programs.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_lesson::{Criterion, Evidence, SPREADSHEET_MARK, What, spreadsheet_text};
@@ -103,14 +102,6 @@ impl Status {
             Self::Graded => "graded",
             Self::Otherwise => "otherwise",
             Self::Failed => "failed",
-        }
-    }
-
-    /// As for people.
-    fn shown(self) -> &'static str {
-        match self {
-            Self::Otherwise => "not graded",
-            it => it.name(),
         }
     }
 }
@@ -215,57 +206,64 @@ pub enum Ended<'a> {
     Failed(&'a str),
 }
 
-/// The table for people.
-pub fn text(class: &Class) -> String {
+/// The table for people, in the teacher's language; steps and rules have their ids.
+pub fn text(class: &Class, words: &Words) -> String {
+    let (texts, report) = (&words.grades, &words.texts.report);
     let lessons = !class.lessons.is_empty();
-    let points = match lessons {
-        true => "program's points",
-        false => "points",
+    let part = |points: u32, of: u32| {
+        let (points, of) = (points.to_string(), of.to_string());
+        report.part.fill(&[("points", &points), ("of", &of)])
     };
-    let heads = [
-        "student",
-        "scene",
-        "lesson's points",
-        points,
-        "verified",
-        "incidents and notes",
-    ];
-    let mut rows = vec![heads.map(String::from)];
+    let mut rows = vec![[
+        texts.student.clone(),
+        texts.scene.clone(),
+        texts.lesson.clone(),
+        texts.points.clone(),
+        texts.verified.head.clone(),
+        texts.notes.clone(),
+    ]];
     let mut before = None;
     for line in &class.lines {
         let student = in_a_line(&line.student);
         // Attempts of one recording stand together.
         let again = before == Some(&line.track);
         before = Some(&line.track);
-        let points = match (line.points, line.of) {
-            (Some(_), Some(0)) => "-".into(),
-            (Some(points), Some(of)) => format!("{points} of {of}"),
-            _ => line.status.shown().into(),
+        let points = match (line.status, line.points, line.of) {
+            (Status::Failed, ..) => texts.failed.clone(),
+            (Status::Otherwise, ..) => texts.not_graded.clone(),
+            (Status::Graded, Some(points), Some(of @ 1..)) => part(points, of),
+            (Status::Graded, ..) => "-".into(),
         };
         let mut notes = line.caps.clone();
         let lesson = line.lesson.as_ref();
-        notes.extend(lesson.map(OfLesson::unmet).filter(|it| !it.is_empty()));
-        notes.extend(line.incidents.iter().map(|(kind, count)| match count {
-            1 => (*kind).to_owned(),
-            _ => format!("{kind} ×{count}"),
+        let unmet = lesson.map(|it| it.unmet(report));
+        notes.extend(unmet.filter(|it| !it.is_empty()));
+        notes.extend(line.incidents.iter().map(|(kind, count)| {
+            let kind = texts.kind(kind);
+            match count {
+                1 => kind.to_owned(),
+                _ => format!("{kind} ×{count}"),
+            }
         }));
         if line.finished == Some(false) {
-            notes.push("broken off".into());
+            notes.push(texts.broken_off.clone());
         }
         notes.extend((!line.note.is_empty()).then(|| in_a_line(&line.note)));
         rows.push([
             if again { String::new() } else { student },
             in_a_line(&line.scene),
-            lesson.map_or_else(String::new, OfLesson::mark),
+            lesson.map_or_else(String::new, |it| part(it.points, it.of)),
             points,
-            line.verified.map_or("", Verdict::name).to_owned(),
+            line.verified
+                .map_or("", |it| it.said(&texts.verified))
+                .to_owned(),
             notes.join(", "),
         ]);
     }
     let mut widths = [0; 5];
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {
-            *width = (*width).max(cell.chars().count());
+            *width = (*width).max(columns(cell));
         }
     }
     let mut text = String::new();
@@ -277,38 +275,34 @@ pub fn text(class: &Class) -> String {
         class.is_verified(),
     ];
     for [cells @ .., notes] in &rows {
-        // Writing to a string cannot fail.
         for ((cell, width), _) in cells.iter().zip(widths).zip(shown).filter(|it| it.1) {
-            let _ = write!(text, "{cell:<width$}  ");
+            text += cell;
+            text.extend(std::iter::repeat_n(' ', width - columns(cell) + 2));
         }
-        let _ = writeln!(text, "{notes}");
+        text += notes;
+        text.push('\n');
     }
+    let counted = texts.counted(class.graded, class.otherwise, class.failed);
+    let taken = texts.taken.fill(&[("number", &class.taken.to_string())]);
+    text += &format!("\n{counted} {taken}\n");
     let scenes: Vec<String> = class.scenes.iter().map(|it| in_a_line(it)).collect();
-    let by = if scenes.is_empty() { "" } else { " by " };
-    let _ = writeln!(
-        text,
-        "\n{} graded{by}{}, {} not graded, {} failed; {} of them as an earlier call left them",
-        class.graded,
-        scenes.join(", "),
-        class.otherwise,
-        class.failed,
-        class.taken
-    );
-    let _ = match class.refuted() {
-        0 => Ok(()),
-        1 => writeln!(text, "1 attempt did not happen as its recording says"),
-        refuted => writeln!(
-            text,
-            "{refuted} attempts did not happen as their recordings say"
-        ),
-    };
-    if let Some(table) = &class.table {
-        let _ = writeln!(text, "table   {table}");
+    if !scenes.is_empty() {
+        text += &format!("{}: {}\n", texts.scene, scenes.join(", "));
     }
-    if let Some(page) = &class.page {
-        let _ = writeln!(text, "page    {page}");
+    if class.refuted() > 0 {
+        let number = class.refuted().to_string();
+        text += &format!("{}\n", texts.refuted.fill(&[("number", &number)]));
+    }
+    for file in class.table.iter().chain(&class.page) {
+        text += &format!("{file}\n");
     }
     text
+}
+
+/// Columns of a terminal that a text takes: Chinese letters and full-width marks have two.
+fn columns(text: &str) -> usize {
+    let wide = |it: char| matches!(it, '\u{2e80}'..='\u{9fff}' | '\u{ff00}'..='\u{ff60}');
+    text.chars().map(|it| 1 + usize::from(wide(it))).sum()
 }
 
 /// The table for a spreadsheet: CSV (RFC 4180), a cell that is not known is empty.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::{Progress, Verdict as LessonVerdict};
 use vitriol_lesson::{Attempt, Event, Score, Texts};
 use vitriol_run::progress::Runs;
+use vitriol_run::texts::VerifiedTexts;
 use vitriol_run::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
 use vitriol_xr::track::{Track, TrackSource};
 
@@ -57,6 +58,15 @@ impl Verdict {
             Self::ToTheBit => "to-the-bit",
             Self::WithinTolerance => "within-tolerance",
             Self::Differs => "differs",
+        }
+    }
+
+    /// It in words.
+    pub fn said(self, texts: &VerifiedTexts) -> &str {
+        match self {
+            Self::ToTheBit => &texts.to_the_bit,
+            Self::WithinTolerance => &texts.within_tolerance,
+            Self::Differs => &texts.differs,
         }
     }
 }

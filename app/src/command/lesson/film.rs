@@ -88,6 +88,7 @@ pub fn make(
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         directed: false,
         look: None,
+        language: args.language,
         shaders: Arc::new(Library::embedded()),
     })?;
     let text = plan.scenes.text(&plan.name);

@@ -1,6 +1,7 @@
 //! The report on a session at its end, as a document and in words.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use serde::Serialize;
 use vitriol_run::units::{count, three_digits};
@@ -143,8 +144,8 @@ fn governed(governor: &GovernorReport) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {substeps} × {iterations}, picture {picture:.0} %{aside}, {:?}: {}",
-            setting.filter,
+            "  solver {substeps} × {iterations}, picture {picture:.0} %{aside}, filter {}: {}",
+            setting.filter.name(),
             count(*frames, "frame")
         );
     }
@@ -169,7 +170,7 @@ pub fn describe(session: &SessionReport) -> String {
     let outcome = &session.outcome;
     let mut text = format!(
         "{}\n{}, {}; {}, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
-         {}, {} missed\n",
+         {} shown, {} a new picture came too late\n",
         session.headset,
         session.scene,
         count(session.fluid_particles, "particle"),
@@ -178,8 +179,8 @@ pub fn describe(session: &SessionReport) -> String {
         three_digits(outcome.slowed),
         session.lost_particles,
         session.nan_particles,
-        count(session.frames, "frame"),
-        session.missed_frames,
+        count(session.frames, "picture"),
+        count(session.missed_frames, "time"),
     );
     text += &governed(&outcome.governor);
     if let Some([width, height]) = outcome.inset {
@@ -264,16 +265,13 @@ pub fn describe(session: &SessionReport) -> String {
         );
     }
     if let Some(recording) = &outcome.recorded {
-        let _ = writeln!(
-            text,
-            "recorded {}, not {}{}",
-            count(recording.steps, "step"),
-            recording.unwritten,
-            recording
-                .cause
-                .as_ref()
-                .map_or_else(String::new, |cause| format!(": {cause}"))
-        );
+        let steps = count(recording.steps, "step");
+        let cause = recording.cause.as_ref();
+        let cause = cause.map_or_else(String::new, |cause| format!(": {cause}"));
+        let _ = match recording.unwritten {
+            0 => writeln!(text, "recorded whole, {steps}{cause}"),
+            lost => writeln!(text, "recorded {steps}; {lost} could not be written{cause}"),
+        };
     }
     if let Some(verdict) = &outcome.verdict {
         let _ = writeln!(
@@ -286,4 +284,31 @@ pub fn describe(session: &SessionReport) -> String {
     }
     let _ = write!(text, "state {}", session.state_hash);
     text
+}
+
+/// What can be done next with the recording `file` of a session with that lesson: a command in each line.
+pub fn next(file: &Path, lesson: Option<&str>) -> String {
+    let quoted = |text: &str| match text.contains(char::is_whitespace) {
+        true => format!("\"{text}\""),
+        false => text.to_owned(),
+    };
+    let file = quoted(&file.display().to_string());
+    let lesson = lesson.map_or_else(String::new, |it| format!(" --lesson {}", quoted(it)));
+    format!(
+        "\nnext: vitriol replay {file}{lesson}\n      vitriol grade {file}{lesson} --out grades"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_next_can_be_typed() {
+        let text = next(Path::new("ada.mcap"), Some("dilute"));
+        let first = text.trim_start().lines().next();
+        assert_eq!(first, Some("next: vitriol replay ada.mcap --lesson dilute"));
+        let text = next(Path::new("of ada.mcap"), None);
+        assert!(text.contains("vitriol replay \"of ada.mcap\""), "{text}");
+    }
 }

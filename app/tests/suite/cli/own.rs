@@ -44,6 +44,8 @@ fn a_new_lesson_checks_and_overwrites_nothing() {
                 (&name.into(), &100.into())
             );
             assert_eq!(shown["languages"], serde_json::json!([language]));
+            // What people type.
+            assert_eq!(object(here, &["lesson", "check", &file]), shown);
             let builtin = object(here, &["lesson", from, "--language", language]);
             assert_eq!(shown["title"], builtin["title"]);
         }

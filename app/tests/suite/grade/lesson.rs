@@ -7,7 +7,7 @@ use std::path::Path;
 use vitriol::command::grade::{Status, Verdict};
 use vitriol::command::replay;
 use vitriol_lesson::procedure::{Kind, Progress, Why};
-use vitriol_lesson::{Lesson, Mode};
+use vitriol_lesson::{Lesson, Mode, Texts};
 use vitriol_run::{Failure, Format, Setup};
 use vitriol_xr::track::Track;
 
@@ -148,10 +148,11 @@ fn a_class_is_graded_by_its_lesson() {
         );
     }
     // 25 of 25, and half of 15 at the second try: 32 of 70, and as much of 10, 10 and 5 for three rules that were kept.
+    let english = Texts::english().unwrap();
     let ada = line(&class, "ada").lesson.as_ref().unwrap();
     assert_eq!((ada.points, ada.of), (10 + 5 + 7 + 10 + 4 + 4 + 2, 100));
     assert!(
-        ada.unmet()
+        ada.unmet(&english.report)
             .contains("put-down missed, stir missed, measure missed, concentration missed, wipe missed, clean broken")
     );
     // 37 of 70, which the rules' points are in proportion to.
@@ -168,7 +169,7 @@ fn a_class_is_graded_by_its_lesson() {
     let told = String::from_utf8(output.stdout).unwrap();
     let heads: Vec<_> = told.lines().next().unwrap().split("  ").collect();
     let heads: Vec<_> = heads.into_iter().map(str::trim).collect();
-    assert!(heads.starts_with(&["student", "lesson's points"]), "{told}");
+    assert!(heads.starts_with(&["Student", "Lesson"]), "{told}");
     let row = told.lines().find(|it| it.starts_with("ada ")).unwrap();
     let first = row.strip_prefix("ada").unwrap().trim_start();
     assert!(first.starts_with("42 of 100 "), "{row}");
@@ -188,6 +189,14 @@ fn a_class_is_graded_by_its_lesson() {
         "{page}"
     );
     assert!(at("id=\"lesson-1\"") < at("id=\"score-1\""), "{page}");
+    // Why what was done or kept has less than full points.
+    let share = "kept. A rule that was kept earns the same share as the steps, rounded down: they earned 32 of 70.";
+    assert_eq!(page.matches(share).count(), 3, "{page}");
+    assert_eq!(
+        page.matches("done only after a failure").count(),
+        1,
+        "{page}"
+    );
 
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     let table = table.trim_start_matches('\u{feff}');

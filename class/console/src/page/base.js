@@ -13,10 +13,13 @@ const make = (tag, text = "", mark = "") => {
 // Writes only what has changed, so that a screen reader does not read it again.
 const write = (at, text) => { if (at.textContent !== text) at.textContent = text; };
 const known = (value) => typeof value === "number";
-const digits = (value, count) => known(value) ? value.toFixed(count) : "–";
+// With the decimal mark of the page's language.
+const decimals = (value, count) => value.toLocaleString(document.documentElement.lang,
+  { minimumFractionDigits: count, maximumFractionDigits: count, useGrouping: false });
+const digits = (value, count) => known(value) ? decimals(value, count) : "–";
 const stepText = (step) => tr(step.number > step.of ? "step_done" : "step_title", step);
 const pointsText = (points) => points ? tr("points", points) : "";
-const seconds = (value) => known(value) ? value.toFixed(1) + " s" : "–";
+const seconds = (value) => known(value) ? decimals(value, 1) + " s" : "–";
 
 const page = {
   socket: null,      // the open socket

@@ -29,7 +29,7 @@ function card(student) {
     student.here ? student.scene || "–" : tr("not_connected"),
     student.step ? stepText(student.step) : "",
     pointsText(student.points),
-    known(student.hottest_c) ? tr("hottest", { temperature: student.hottest_c.toFixed(1) }) : "",
+    known(student.hottest_c) ? tr("hottest", { temperature: decimals(student.hottest_c, 1) }) : "",
     student.paused ? tr("paused") : "",
     student.incidents > 0 ? `⚠ ${count(student.incidents, "incident")}: ${student.gravest ?? ""}` : "",
   ];

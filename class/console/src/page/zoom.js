@@ -12,7 +12,7 @@ function showZoom() {
   $("screen").classList.toggle("magnified", is);
   $("farther").disabled = !is;
   $("closer").disabled = zoom.scale >= MOST_ZOOM;
-  write($("scale"), is ? `× ${zoom.scale.toFixed(1)}` : "");
+  write($("scale"), is ? `× ${decimals(zoom.scale, 1)}` : "");
 }
 
 function moveZoom(x, y) {

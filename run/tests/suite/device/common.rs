@@ -58,6 +58,7 @@ fn made(
         head,
         directed: false,
         look: None,
+        language: Default::default(),
         shaders: Arc::new(shaders),
     };
     on_device(gpu, &setup).unwrap()
