@@ -92,7 +92,7 @@ impl Panel {
     /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         let context = egui::Context::default();
-        view::style(&context);
+        style(&context);
         Ok(Self {
             words: Texts::english()?.panel,
             context,
