@@ -91,6 +91,14 @@ pub struct PanelTexts {
     unwritten: String,
     /// Text for a device that was lost, where another took over.
     pub device_lost: String,
+    /// Why time is held: the device is lost and not yet replaced, or the headset is off, not seen yet, or lost.
+    pub card_failed: String,
+    /// See `card_failed`.
+    pub headset_off: String,
+    /// See `card_failed`.
+    pub headset_unseen: String,
+    /// See `card_failed`.
+    pub headset_lost: String,
     slow: String,
     missed: String,
     /// State of a flask that broke.

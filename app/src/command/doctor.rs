@@ -14,7 +14,7 @@ const QUICK_MESA: u32 = 25;
 /// What is advised of an older software driver of Mesa's, as was measured in 2026-11. The LLVM matters: Mesa 25 was slower than 22.3
 /// where both had LLVM 15 (docs/measurements/performance.md).
 const SLOW_MESA: &str =
-    "a newer driver is quicker: Mesa 25 with LLVM 19 takes three quarters of Mesa 22.3's time";
+    "a newer driver is quicker: Mesa 25 with LLVM 19 takes 0.7 of Mesa 22.3's time";
 
 #[derive(Debug, Serialize)]
 struct Findings {

@@ -9,7 +9,7 @@ use std::sync::mpsc::Sender;
 use vitriol_gpu::{Gpu, Timestamps, vk};
 use vitriol_lesson::{Rubric, Texts};
 use vitriol_run::{Blame, Failure, Format, Scenes, emit, track};
-use vitriol_sim::scene::Preset;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sound::Device;
 use vitriol_xr::files;
 use vitriol_xr::track::TrackError;
@@ -158,7 +158,11 @@ impl<'a> Prepared<'a> {
         };
         let recorded = report.outcome.recorded.is_some();
         let file = self.args.record.as_deref().filter(|_| recorded);
-        let next = file.map(|file| report::next(file, self.args.lesson.as_deref()));
+        let lesson = self.args.lesson.as_deref();
+        // Built-in scenes are accepted as they are, and a lesson's are.
+        let is_own = |scene: &&str| lesson.is_none() && Scene::builtin_text(scene).is_none();
+        let own_scene = Some(self.args.scene.as_str()).filter(is_own);
+        let next = file.map(|file| report::next(file, (lesson, self.args.mode), own_scene));
         emit(self.format, &report, |it| {
             report::describe(it) + next.as_deref().unwrap_or_default()
         })?;

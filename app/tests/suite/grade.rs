@@ -314,7 +314,7 @@ fn a_simulation_confirms_or_refutes() {
         (&texts.within_tolerance, 1),
         (&texts.differs, 2),
     ] {
-        let cell = format!("<td>{text}</td>");
+        let cell = format!("<td data-head=\"{}\">{text}</td>", texts.head);
         assert_eq!(page.matches(&cell).count(), rows, "{cell}: {page}");
     }
     assert!(page.contains(&texts.head));

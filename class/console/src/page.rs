@@ -129,6 +129,19 @@ mod tests {
         }
     }
 
+    /// All scripts are one: of two functions of a name the later one would count.
+    #[test]
+    fn no_function_is_declared_twice() {
+        let scripts = SCRIPTS.concat();
+        let heads = scripts
+            .lines()
+            .map(|line| line.trim_start_matches("async "));
+        let names = heads.filter_map(|line| line.strip_prefix("function ")?.split('(').next());
+        let names: Vec<&str> = names.collect();
+        let different: BTreeSet<_> = names.iter().collect();
+        assert_eq!(names.len(), different.len(), "{names:?}");
+    }
+
     /// Each text is used, and each that is used is there: in the page by `{{key}}`, in the scripts by its key in quotes, and with
     /// `_one` and `_more` by what is counted.
     #[test]

@@ -128,6 +128,8 @@ pub(crate) struct Brief {
     pub here: bool,
     /// The scene's title.
     pub scene: Text<NAME>,
+    /// Its index in [`Student::choices`]; `None` where it is none of them.
+    pub choice: Option<u8>,
     /// The step of the procedure.
     pub step: Option<Step>,
     /// The points so far.
@@ -162,6 +164,7 @@ impl Brief {
             name,
             here,
             scene: state.map(|state| state.scene.clone()).unwrap_or_default(),
+            choice: state.and_then(|state| state.choice),
             step: state.and_then(|state| state.step.clone()),
             points: state.and_then(|state| state.points),
             // A tenth is what people read, and an unchanged class is not sent again.

@@ -42,7 +42,7 @@ type Given = (RawPicture, Viewpoint, u64);
 /// Codes pictures for the console on a thread of its own, which ends when this is dropped.
 pub struct Coder {
     port: Port,
-    /// One waits at most: what is older than that is not live.
+    /// One of each viewpoint waits at most: what is older than that is not live.
     pictures: Option<SyncSender<Given>>,
     thread: Option<std::thread::JoinHandle<()>>,
 }
@@ -53,7 +53,7 @@ impl Coder {
     /// # Errors
     /// Where no thread can be started.
     pub fn new(port: &Port) -> Result<Self, Failure> {
-        let (pictures, queue) = sync_channel(1);
+        let (pictures, queue) = sync_channel(2);
         let own = port.clone();
         let thread = std::thread::Builder::new()
             .name("console-view".to_owned())

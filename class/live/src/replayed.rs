@@ -39,6 +39,8 @@ pub struct Live {
     took: f64,
     /// When the glass was drawn from close by last.
     close_up: Option<Instant>,
+    /// The film's last picture, and when it was shown last: while time is held none follows.
+    film: Option<(Vec<u8>, Instant)>,
     evaluation: Evaluation,
 }
 
@@ -66,6 +68,7 @@ impl Live {
             due: None,
             took: 0.0,
             close_up: None,
+            film: None,
             evaluation: Evaluation::default(),
         };
         live.name_flasks();
@@ -102,6 +105,7 @@ impl Live {
                 self.due = None;
             }
             self.show_close_up()?;
+            self.show_again();
             let left = self
                 .due
                 .map(|due| due.saturating_duration_since(Instant::now()));
@@ -132,6 +136,22 @@ impl Live {
             self.coder.give(picture, Viewpoint::CloseUp, self.time_us());
         }
         Ok(())
+    }
+
+    /// Shows the film's last picture where it is held: a page that comes, or comes back from the glass, has none.
+    fn show_again(&mut self) {
+        if !self.controls.paused || !self.coder.is_wanted(Viewpoint::Student) {
+            return;
+        }
+        let time_us = self.time_us();
+        let Some((picture, shown)) = &mut self.film else {
+            return;
+        };
+        if shown.elapsed() >= CLOSE_UP_EVERY {
+            *shown = Instant::now();
+            let picture = RawPicture::Rgba(picture.clone(), FILM_SIZE);
+            self.coder.give(picture, Viewpoint::Student, time_us);
+        }
     }
 
     /// Simulated time, µs.
@@ -219,13 +239,14 @@ impl Experiment for Live {
     }
 
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
-        let wanted = film == 0 && self.coder.is_wanted(Viewpoint::Student);
         let time_us = self.time_us();
         let picture = self.inner.picture(film)?;
-        if wanted {
-            let [width, height] = FILM_SIZE;
-            let whole = RawPicture::Rgba(picture.to_vec(), [width, height]);
-            self.coder.give(whole, Viewpoint::Student, time_us);
+        if film == 0 {
+            if self.coder.is_wanted(Viewpoint::Student) {
+                let whole = RawPicture::Rgba(picture.to_vec(), FILM_SIZE);
+                self.coder.give(whole, Viewpoint::Student, time_us);
+            }
+            self.film = Some((picture.to_vec(), Instant::now()));
         }
         Ok(picture)
     }

@@ -233,18 +233,20 @@ mod tests {
     #[test]
     fn what_is_over_is_listed_once() {
         let texts = (&Texts::english().unwrap(), &Rubric::default());
-        let what = || What::Dropped {
+        let what = |broke| What::Dropped {
             flask: "source".to_owned(),
             speed_m_s: 2.0,
-            broke: false,
+            broke,
         };
         let mut events = vec![begun(0.0, "acid-into-water")];
         let mut evaluation = Evaluation::default();
-        evaluation.follow(&events, || vec![found(1.0, what())], texts);
+        evaluation.follow(&events, || vec![found(1.0, what(false))], texts);
         assert_eq!(evaluation.attempts().of_present, 1);
-        events.push(found(1.0, what()));
+        let before = evaluation.attempts().incidents[0].text.clone();
+        events.push(found(1.0, what(true)));
         evaluation.follow(&events, Vec::new, texts);
         assert_eq!(evaluation.attempts().of_present, 1);
+        assert_ne!(evaluation.attempts().incidents[0].text, before);
     }
 
     /// What went wrong in an attempt is told as that attempt's, and the present one counts its own alone. All are counted, and a grave one

@@ -372,15 +372,19 @@ impl Session {
                         headset.request_exit().map_err(blame)?;
                     }
                 }
-                Turn::Paused { cause } => self.pause(match cause {
-                    Pause::Off => "the headset is off",
-                    Pause::Unseen => "the headset is not seen yet",
-                })?,
+                Turn::Paused { cause } => {
+                    let words = &self.texts.panel;
+                    let why = match cause {
+                        Pause::Off => &words.headset_off,
+                        Pause::Unseen => &words.headset_unseen,
+                    };
+                    self.pause(&why.clone())?;
+                }
                 Turn::Lost { cause } => {
                     if !std::mem::replace(&mut lost, true) {
                         tracing::warn!("{cause}; the experiment waits where it is");
                     }
-                    self.pause("the headset is lost")?;
+                    self.pause(&self.texts.panel.headset_lost.clone())?;
                 }
                 Turn::Renewed => {
                     lost = false;
@@ -406,8 +410,8 @@ impl Session {
     /// What is lost where the pictures have nowhere to go.
     fn lost(&self) -> String {
         match self.pointer {
-            true => self.texts.panel.device_lost.clone(),
-            false => "the headset is lost".to_owned(),
+            true => self.texts.panel.card_failed.clone(),
+            false => self.texts.panel.headset_lost.clone(),
         }
     }
 

@@ -92,8 +92,9 @@ impl View {
     /// An error of the device.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         for (shrink, from) in [
-            (&mut self.shrink, Viewpoint::Student),
+            // The rarer one first, so that it finds a place.
             (&mut self.close_up, Viewpoint::CloseUp),
+            (&mut self.shrink, Viewpoint::Student),
         ] {
             while let Some(shrunk) = shrink.done()? {
                 let time_us = u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX);

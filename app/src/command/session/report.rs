@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
+use vitriol_lesson::Mode;
 use vitriol_run::units::{count, three_digits};
 use vitriol_run::{Blame, DeviceStatement, Failure, device};
 
@@ -286,16 +287,23 @@ pub fn describe(session: &SessionReport) -> String {
     text
 }
 
-/// What can be done next with the recording `file` of a session with that lesson: a command in each line.
-pub fn next(file: &Path, lesson: Option<&str>) -> String {
+/// What can be done next with the recording `file` of a session with that lesson in that mode, or in a scene of the user's own: a command
+/// in each line.
+pub fn next(
+    file: &Path,
+    (lesson, mode): (Option<&str>, Option<Mode>),
+    own_scene: Option<&str>,
+) -> String {
     let quoted = |text: &str| match text.contains(char::is_whitespace) {
         true => format!("\"{text}\""),
         false => text.to_owned(),
     };
     let file = quoted(&file.display().to_string());
     let lesson = lesson.map_or_else(String::new, |it| format!(" --lesson {}", quoted(it)));
+    let mode = mode.map_or_else(String::new, |it| format!(" --mode {it}"));
+    let own = own_scene.map_or_else(String::new, |it| format!(" --scene {}", quoted(it)));
     format!(
-        "\nnext: vitriol replay {file}{lesson}\n      vitriol grade {file}{lesson} --out grades"
+        "\nnext: vitriol replay {file}{lesson}{mode}\n      vitriol grade {file}{lesson}{mode}{own} --out grades"
     )
 }
 
@@ -305,10 +313,21 @@ mod tests {
 
     #[test]
     fn what_is_next_can_be_typed() {
-        let text = next(Path::new("ada.mcap"), Some("dilute"));
-        let first = text.trim_start().lines().next();
-        assert_eq!(first, Some("next: vitriol replay ada.mcap --lesson dilute"));
-        let text = next(Path::new("of ada.mcap"), None);
-        assert!(text.contains("vitriol replay \"of ada.mcap\""), "{text}");
+        let lesson = (Some("dilute"), Some(Mode::Free));
+        let text = next(Path::new("ada.mcap"), lesson, None);
+        let lines: Vec<&str> = text.trim_start().lines().collect();
+        assert_eq!(
+            lines,
+            [
+                "next: vitriol replay ada.mcap --lesson dilute --mode free",
+                "      vitriol grade ada.mcap --lesson dilute --mode free --out grades"
+            ]
+        );
+        let text = next(Path::new("of ada.mcap"), (None, None), Some("my.toml"));
+        assert!(text.contains("vitriol replay \"of ada.mcap\"\n"), "{text}");
+        assert!(
+            text.contains("\"of ada.mcap\" --scene my.toml --out"),
+            "{text}"
+        );
     }
 }

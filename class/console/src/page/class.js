@@ -199,7 +199,7 @@ $("all-scene").onsubmit = (event) => {
   const choice = Number($("all-choice").value);
   const words = $("all-choice").selectedOptions[0].textContent;
   // The lesson's own scene begins the lesson anew. Recordings with another scene are not graded.
-  const leaves = ({ here, step, scene }) => here && step && scene !== allChoices[choice]?.title;
+  const leaves = (student) => student.here && student.step && student.choice !== choice;
   const leaving = page.students.filter(leaves).length;
   const lesson = leaving > 0 ? count(leaving, "lessons_end") : "";
   askFirst(words, { work: tr("all_lose"), lesson }, () => orderAll({ do: "scene", choice }, words));

@@ -50,11 +50,11 @@ function askFirst(title, { work = "", lesson = "" }, then) {
   write($("lose-title"), title);
   write($("lose-what"), work);
   write($("lose-lesson"), lesson);
-  ask("lose", "lose-not");
+  askIn("lose", "lose-not");
 }
 
 // A browser focuses a dialog's first button. What Enter presses must do no harm.
-function ask(dialog, harmless) {
+function askIn(dialog, harmless) {
   $(dialog).showModal();
   $(harmless).focus();
 }
@@ -116,7 +116,7 @@ $("unsay").onclick = () => order({ do: "message", text: "" }, tr("taken_away"), 
 function askEnd(title, what) {
   write($("sure-title"), title);
   write($("sure-what"), what);
-  ask("sure", "end-not");
+  askIn("sure", "end-not");
 }
 $("end").onclick = () => askEnd(tr("end_question"), "");
 $("end-not").onclick = () => $("sure").close();

@@ -3,6 +3,7 @@ let decoder = null;
 let waitsForKey = true;
 let decoding = false;   // a JPEG
 let later = null;       // the JPEG after it
+let shownFrom = 0;      // counts changes of student or camera
 let failures = 0;
 let drawn = 0;
 let drawnAt = null;     // ms of the page, of the last picture
@@ -31,6 +32,7 @@ function tellPictures() {
 function forgetPicture() {
   if (decoder && decoder.state !== "closed") decoder.close();
   decoder = later = null;
+  shownFrom += 1;
   waitsForKey = true;
   const canvas = $("picture");
   canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
@@ -73,10 +75,11 @@ async function receiveJpeg(picture) {
   decoding = true;
   while (later) {
     const { bytes, width, height } = later;
+    const from = shownFrom;
     later = null;
     try {
       const image = await createImageBitmap(new Blob([bytes], { type: "image/jpeg" }));
-      draw(image, width, height);
+      if (from === shownFrom) draw(image, width, height);
       image.close();
     } catch { /* A broken one is left out. */ }
   }

@@ -170,8 +170,10 @@ impl Flows {
 
     /// The largest pour under way at `now` (s): drops that fall beside it are another flow.
     pub fn under_way(&self, bench: &Bench, now: f64) -> Option<Stream> {
-        let largest =
-            (self.open.values()).max_by(|a, b| a.amount.volume.total_cmp(&b.amount.volume));
+        let into_glass = self.open.iter().filter(|((_, to), _)| to.is_some());
+        let largest = into_glass
+            .map(|(_, flow)| flow)
+            .max_by(|a, b| a.amount.volume.total_cmp(&b.amount.volume));
         let flow = largest.filter(|it| it.amount.volume >= bench.limits.least_pour_m3)?;
         // With a microsecond of tolerance, since times are sums of steps and rounded.
         let oldest = now - WINDOW + 1e-6;

@@ -177,6 +177,9 @@ impl Hands {
         for mover in &mut self.movers {
             mover.take_in(around, self.head, controls.away);
         }
+        if let State::Holding(_) = self.movers[self.active as usize].state {
+            self.chosen = false;
+        }
         self.point(&controls, around, dt);
         self.click(&controls, around, dt);
         self.decide(&controls, around);
@@ -392,7 +395,6 @@ impl Hands {
                 let clicks = toggles || !let_go || picked.is_some_and(goggles);
                 let begins = controls.grip || (press && clicks);
                 if let (true, Some(thing), Some(drag)) = (begins, picked, drag) {
-                    self.chosen = false;
                     mover.take(Taking {
                         thing,
                         drag,

@@ -273,6 +273,9 @@ impl Session {
 
     /// Shows a first user what to do next.
     fn hint(&mut self) {
+        if self.hints.sign.is_none() {
+            return;
+        }
         let (seen, time) = (self.viewed(), 1e-9 * self.shown_at() as f64);
         let bare = self.joints.each_ref().map(Option::is_some);
         let asked = self.guide.asked(&self.run);

@@ -87,7 +87,8 @@ impl Summary {
         };
         let is_present = attempts.last().is_some_and(|last| happened(&last));
         let of = (!is_present).then(|| words.scene(self.texts.scene(&attempt.scene)));
-        let room = LINES - usize::from(!is_present);
+        let scene_lines = of.as_ref().map_or(0, |it| columns(it).div_ceil(LINE));
+        let room = LINES.saturating_sub(scene_lines);
         let score = Score::of(attempt, &self.rubric, &self.texts);
         let (said, more) = fitting(sentences(attempt, &score, &self.texts), room);
         let said = said.into_iter().map(|it| (it.tone, it.text));
