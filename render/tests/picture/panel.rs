@@ -1,10 +1,13 @@
 //! The panel against rays in f64, objects before it, and the fading of the picture.
 
+use crate::liquid::{self, Liquid, lattice};
 use crate::rig::{Picture, Rig, linear, ray};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, QueueKind, vk};
 use vitriol_render::camera::NEAR;
-use vitriol_render::{Bone, Finish, Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
+use vitriol_render::{
+    Bone, Finish, Fov, FrameDesc, Panel, SceneDesc, SurfaceFilter, VesselDesc, View,
+};
 
 pub const EXTENT: [u32; 2] = [320, 240];
 const TEXELS: [u32; 2] = [256, 160];
@@ -330,4 +333,47 @@ fn is_even(picture: &Picture, x: u32, y: u32) -> bool {
         (level.min(least), level.max(most))
     });
     most - least < 5
+}
+
+/// Liquid shows a panel that it stands before. One that is elsewhere, whose light a ball bends or mirrors towards the eye, would be a dark
+/// block in it: no pixel of the ball shows it.
+#[test]
+fn liquid_shows_a_panel_that_it_stands_before_alone() {
+    let rig = liquid::rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let (view, image) = (view(), image(&rig));
+    let ahead = |up: f32, away: f32| {
+        let from_eye = Vec3::new(0.0, up, -away);
+        view.stage_from_eye * Affine3A::from_translation(from_eye)
+    };
+    let middle: Vec3 = ahead(0.0, 0.25).translation.into();
+    let ball = lattice(10, 0.2, |x| x.length() < 9.0);
+    let ball: Vec<Vec3> = ball.into_iter().map(|x| x + middle).collect();
+    let ball = Liquid::new(&rig, &ball, |_| 0.0);
+    let draw = |stage_from_panel: Option<Affine3A>| {
+        let panel = stage_from_panel.map(|stage_from_panel| Panel {
+            image: &image,
+            stage_from_panel,
+            size: [0.6; 2],
+        });
+        let desc = FrameDesc {
+            panel,
+            ..liquid::frame(std::slice::from_ref(&view), &[], &ball)
+        };
+        liquid::draw(&rig, &desc)
+    };
+    let (bare, surfaces) = draw(None);
+    let wet = |index: &usize| surfaces[0].depth[*index] > 0.0;
+    let wet: Vec<usize> = pixels().map(|(.., index)| index).filter(wet).collect();
+    let changed = |with: &Picture| {
+        let differs = |index: &&usize| rgba(&bare, **index) != rgba(with, **index);
+        wet.iter().filter(differs).count()
+    };
+    // Behind the ball, and over the lines of sight through it, of which none is 0.05 m off at 0.55 m. A lens of water of that radius, 22 mm, has
+    // its focus 45 mm behind its middle, and spreads light over 0.13 m there.
+    let [behind, over] = [(0.0, 0.35), (0.36, 0.55)].map(|(up, away)| {
+        let (picture, _) = draw(Some(ahead(up, away)));
+        changed(&picture)
+    });
+    assert!(2 * behind > wet.len(), "{behind} of {}", wet.len());
+    assert_eq!(over, 0, "of {}", wet.len());
 }

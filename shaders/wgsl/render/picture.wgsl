@@ -96,15 +96,22 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
         colour = display(kept * seen.light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (wet) {
+            // Liquid shows them where it stands before them. They are no things of the room: where it mirrors or bends light of elsewhere
+            // they would be dark blocks in it.
+            let straight = seen_along(eye, at);
             let behind = meets_panel(origin, direction);
+            let beyond = meets_panel(frame.views[eye].eye, straight);
             var end = select(met.way, 1e9, met.way == 0.0);
-            if (behind.way < end && is_on_panel(behind.at, 1.0)) {
+            if (behind.way < end && is_on_panel(behind.at, 1.0) && beyond.way < 1e9 && is_on_panel(beyond.at, 1.0)) {
                 colour = kept * panel_light(behind.at) + display(mirrored);
                 end = behind.way;
             }
             if (has_sign()) {
                 let sign = meets_sign(origin, direction);
-                if (sign.way < end && is_on_sign(sign.at)) { colour = kept * sign_light(sign.at) + display(mirrored); }
+                let beyond_sign = meets_sign(frame.views[eye].eye, straight);
+                if (sign.way < end && is_on_sign(sign.at) && beyond_sign.way < 1e9 && is_on_sign(beyond_sign.at)) {
+                    colour = kept * sign_light(sign.at) + display(mirrored);
+                }
             }
         } else if (SHEETS) {
             let panel = panel_seen(eye, at, near / max(reversed, 1e-9));
