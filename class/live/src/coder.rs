@@ -282,30 +282,6 @@ mod tests {
         assert_eq!(seen[4..8], [64, 0, 64, 0]);
     }
 
-    /// A student's picture that comes right before one from close by does not take its place.
-    #[test]
-    fn pictures_of_both_viewpoints_go_together() {
-        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-        let hub = start(listen, false, Language::En).unwrap();
-        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
-        let port = hub.student(told).unwrap().unwrap();
-        let coder = Coder::new(&port).unwrap();
-        let codecs = [Codec::Jpeg, Codec::CloseUp];
-        let pages = codecs.map(|codec| Watcher::enter(&hub, codec).unwrap());
-        let viewpoints = [Viewpoint::Student, Viewpoint::CloseUp];
-        let begun = Instant::now();
-        while !viewpoints.iter().all(|from| coder.is_wanted(*from)) {
-            assert!(begun.elapsed() < PATIENCE, "they are not asked for");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        for from in viewpoints {
-            let picture = RawPicture::Rgba(vec![200; 4 * 64 * 64], [64; 2]);
-            coder.give(picture, from, 0);
-        }
-        let marks = pages.map(|mut page| page.see().unwrap()[0]);
-        assert_eq!(marks, [2, 4]);
-    }
-
     mod long {
         use super::*;
         use vitriol_console::State;
