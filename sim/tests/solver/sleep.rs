@@ -1,5 +1,7 @@
 //! Liquid that sleeps: it stays where it is, wakes before anything meets it, and goes on as if it had not slept.
 
+mod awake;
+
 use crate::chemistry::setup::{glass_of, with, with_bubbles};
 use crate::common::*;
 use glam::{DVec3, Vec3};
@@ -292,45 +294,7 @@ fn liquid_that_slept_stands_as_if_it_had_not() {
 }
 
 /// Liquid that is warm, or not even, goes on: it would cool, or mix.
-#[test]
-fn warm_and_uneven_liquid_stays_awake() {
-    let gpu = gpu::device();
-    let law = Chemistry::Physical(with_bubbles());
-    let asleep = |of: &dyn Fn(f64) -> (f64, f64)| {
-        let p = with(law.clone(), calm());
-        let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, of));
-        let solver = setup.solver(&gpu);
-        frames(&gpu, &solver, &[Pose::IDENTITY], SETTLED);
-        solver.awake().unwrap() == 0
-    };
-    assert!(asleep(&|_| (20.0, 0.98)));
-    assert!(!asleep(&|_| (30.0, 0.98)), "10 K above the room");
-    assert!(!asleep(&|_| (21.5, 0.98)), "1.5 K above the room");
-    // Two fractions that lie apart, with nothing unmixed within particles.
-    let law = Physical {
-        lamella: None,
-        ..with_bubbles()
-    };
-    let p = with(Chemistry::Physical(law), calm());
-    let layers = |height: f64| (20.0, if height > 0.5 { 0.977 } else { 0.98 });
-    let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, layers));
-    let solver = setup.solver(&gpu);
-    frames(&gpu, &solver, &[Pose::IDENTITY], SETTLED);
-    assert_eq!(solver.awake().unwrap(), 500, "two layers");
-}
-
 /// Liquid over a plate that is on never sleeps.
-#[test]
-fn a_plate_keeps_liquid_awake() {
-    let gpu = gpu::device();
-    let mut p = with(Chemistry::Physical(with_bubbles()), calm());
-    p.heaters = vec![50.0];
-    let setup = Setup::new(p, vec![narrow_glass()], glass_of(200, |_| (20.0, 0.0)));
-    let solver = setup.solver(&gpu);
-    frames(&gpu, &solver, &[Pose::IDENTITY], 30);
-    assert_eq!(solver.awake().unwrap(), 200);
-}
-
 /// Once a finished frame has told that all liquid sleeps, frames are recorded without it; the bits, and the loads, are as with all passes.
 #[test]
 fn still_frames_have_the_same_bits() {
@@ -432,100 +396,8 @@ fn a_restored_sleep_has_the_same_loads() {
 }
 
 /// Liquid that sloshes is not caught at the turn of its swing: its particles are slow then, and only for a moment.
-#[test]
-fn a_slosh_is_not_caught_at_its_turn() {
-    let gpu = gpu::device();
-    let mut setup = glass(still(), 1);
-    setup.parameters.viscosity = 0.05;
-    let solver = setup.solver(&gpu);
-    let mut pose = Pose::IDENTITY;
-    for _ in 0..4 {
-        let next = at(pose.position.x + 0.002, 0.0, 0.0);
-        frame(&gpu, &solver, &[pose], &[next]);
-        pose = next;
-    }
-    let asleep = (0..300).find(|_| {
-        frames(&gpu, &solver, &[pose], 1);
-        solver.awake().unwrap() == 0
-    });
-    assert!(asleep.is_some(), "never sleeps");
-    // A quarter of a spacing at the wall.
-    let found = particles(&solver.snapshot().unwrap());
-    let raised = raised(&found, pose.position.x.into());
-    assert!(raised.abs() < 0.25 * D, "{raised} m");
-}
-
 /// Water that turns slowly with no particle fast: the mean alone tells that it is not at rest.
-#[test]
-fn water_that_turns_as_a_whole_stays_awake() {
-    let gpu = gpu::device();
-    let mut setup = glass(still(), 1);
-    setup.parameters.viscosity = 0.05;
-    let solver = setup.solver(&gpu);
-    frames(&gpu, &solver, &[Pose::IDENTITY], 2 * SETTLED);
-    let mut state = solver.snapshot().unwrap();
-    // 0.02 m/s at the wall.
-    let rate = 0.02 / 0.013;
-    for (v, x) in state.velocities.iter_mut().zip(&state.positions) {
-        *v = [rate * x[2], 0.0, -rate * x[0], v[3]];
-    }
-    solver.restore(&state).unwrap();
-    // Wakes it, and lifts no wave.
-    let lifted = at(0.0, 2e-4, 0.0);
-    frame(&gpu, &solver, &[Pose::IDENTITY], &[lifted]);
-    // A particle is slow below √(2g·0.016 d), and liquid rests below a fifth of that on average.
-    let slow = (2.0 * 9.81 * 0.016 * D).sqrt();
-    for n in 0..40 {
-        frames(&gpu, &solver, &[lifted], 1);
-        let speeds = particles(&solver.snapshot().unwrap());
-        let squares = speeds.iter().map(|it| it.velocity.length_squared());
-        let (sum, most) = squares.fold((0.0, 0.0_f64), |(sum, most), v| (sum + v, most.max(v)));
-        let mean = (sum / 500.0).sqrt();
-        // What else would keep it awake ends in time for 0.2 s of calm.
-        assert!(
-            n < 15 || most.sqrt() < slow,
-            "frame {n}: {} m/s",
-            most.sqrt()
-        );
-        assert!(mean > 0.22 * slow, "frame {n}: {mean} m/s on average");
-        assert_eq!(solver.awake().unwrap(), 500, "frame {n}");
-    }
-}
-
 /// Drops in the air may come down, and what is unmixed within particles mixes.
-#[test]
-fn drops_and_unmixed_particles_keep_liquid_awake() {
-    let gpu = gpu::device();
-    let p = with(Chemistry::Physical(with_bubbles()), calm());
-    let setup = Setup::new(p, vec![narrow_glass()], glass_of(500, |_| (20.0, 0.5)));
-    let poses = [Pose::IDENTITY];
-    let solver = setup.solver(&gpu);
-    let mut flying = solver.snapshot().unwrap();
-    // It falls past all, for longer than the liquid needs to come to rest.
-    flying.drops_mut()[0] = Drops {
-        position: [1.0, 3.0, 0.0],
-        mass: 0.01,
-        radius: 5e-4,
-        density: 1000.0,
-        ..Drops::default()
-    };
-    solver.restore(&flying).unwrap();
-    frames(&gpu, &solver, &poses, SETTLED);
-    let state = solver.snapshot().unwrap();
-    assert!(state.drops()[0].mass > 0.0, "it is gone");
-    assert_eq!(solver.awake().unwrap(), 500, "a drop in the air");
-    let mut unmixed = setup.solver(&gpu).snapshot().unwrap();
-    for eddies in &mut unmixed.eddies {
-        eddies[1] = 1e-5;
-    }
-    solver.restore(&unmixed).unwrap();
-    frames(&gpu, &solver, &poses, SETTLED);
-    assert_eq!(solver.awake().unwrap(), 500, "unmixed particles");
-    let state = solver.snapshot().unwrap();
-    let warmest = state.heat.iter().map(|heat| heat[0]).fold(0.0, f32::max);
-    assert!(warmest < 21.0, "{warmest} °C would keep it awake too");
-}
-
 /// The pass of turnovers is dormant while all sleeps, and runs for liquid that wakes up with fast eddies: the same bits as if it always ran.
 #[test]
 fn what_wakes_up_swaps_as_with_all_passes() {
