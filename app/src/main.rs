@@ -5,6 +5,7 @@ use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue};
 use tracing::level_filters::LevelFilter;
 use vitriol::cli::{Cli, left_out};
 use vitriol_run::{error_line, escaped, printed};
@@ -12,7 +13,7 @@ use vitriol_run::{error_line, escaped, printed};
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return refused(&error),
+        Err(error) => return refused(&plain(error)),
     };
     let log = tracing_subscriber::fmt()
         // What a reader that has gone leaves unwritten is nothing to say.
@@ -53,6 +54,17 @@ fn takes_colours() -> bool {
     #[cfg(not(windows))]
     let asked = true;
     asked && std::io::stderr().is_terminal()
+}
+
+/// The error without clap's advice to give an unknown option as a track or a file: it is a mistyped one.
+fn plain(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::StyledStrs(mut tips)) = error.remove(ContextKind::Suggested) {
+        tips.retain(|tip| !tip.to_string().contains("as a value, use"));
+        if !tips.is_empty() {
+            error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+        }
+    }
+    error
 }
 
 /// What the command line asks for is not there, or is help.

@@ -9,8 +9,6 @@ use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, Typ
 use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
 use vitriol_xr::track::limits;
 
-use crate::units::pair;
-
 /// One of a type's values by its name; each value is given with its help.
 pub fn named<T: Copy + Send + Sync + 'static>(
     values: &'static [(T, &'static str)],
@@ -121,12 +119,31 @@ pub const MOST_FRAMES: u64 = limits::FRAMES as u64;
 /// Most pixels along a side of a picture: the widest image of most devices. A device with a smaller limit names its own.
 pub const MOST_PIXELS: u32 = 16_384;
 
+/// Two whole numbers above zero; `example` is what is meant by them.
+fn pair(text: &str, example: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once('x').map(|(a, b)| [a.parse(), b.parse()]);
+    match numbers {
+        Some([Ok(first), Ok(second)]) if first > 0 && second > 0 => Ok([first, second]),
+        _ => Err(format!(
+            "give two whole numbers above 0 with an x between them, such as {example}"
+        )),
+    }
+}
+
+/// Substeps and iterations of the solver.
+///
+/// # Errors
+/// What is to be given.
+pub fn effort(text: &str) -> Result<[u32; 2], String> {
+    pair(text, "10x3")
+}
+
 /// Width and height of a picture, pixels.
 ///
 /// # Errors
 /// What is to be given.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = pair(text)?;
+    let sides = pair(text, "960x540")?;
     match sides.iter().max() {
         Some(side) if *side > MOST_PIXELS => Err(format!(
             "give at most {MOST_PIXELS} pixels a side, as devices draw, such as 960x540"
@@ -164,6 +181,17 @@ mod tests {
         for wrong in ["0", "-1", "NaN", "inf", "2,5"] {
             assert!(positive(wrong).is_err(), "{wrong}");
             assert!(wrong == "0" || not_negative(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pairs_are_two_numbers_above_zero() {
+        assert_eq!(size("960x540"), Ok([960, 540]));
+        assert_eq!(effort("10x3"), Ok([10, 3]));
+        for wrong in ["960", "960x", "0x540", "960,540", "-1x2", "axb"] {
+            let says = |example: &'static str| move |error: String| error.contains(example);
+            assert!(size(wrong).is_err_and(says("960x540")), "{wrong}");
+            assert!(effort(wrong).is_err_and(says("10x3")), "{wrong}");
         }
     }
 

@@ -106,18 +106,6 @@ pub fn count(number: u64, noun: &str) -> String {
     format!("{} {noun}{ending}", grouped(number))
 }
 
-/// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
-///
-/// # Errors
-/// What is to be given.
-pub fn pair(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
-    match sides {
-        Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
-        _ => Err("give two whole numbers above 0 with an x between them, such as 960x540".into()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -144,13 +132,5 @@ mod tests {
         assert_eq!(count(0, "moment"), "0 moments");
         assert_eq!(count(2, "switch"), "2 switches");
         assert_eq!(count(1, "dispatch"), "1 dispatch");
-    }
-
-    #[test]
-    fn pairs_are_two_numbers_above_zero() {
-        assert_eq!(pair("960x540"), Ok([960, 540]));
-        for wrong in ["960", "960x", "0x540", "960,540", "-1x2", "axb"] {
-            assert!(pair(wrong).is_err(), "{wrong}");
-        }
     }
 }

@@ -162,7 +162,7 @@ mod names {
     pub const JSON: [&str; 2] = ["jsonschema", "json"];
 }
 
-/// Nanoseconds to seconds.
+/// Nanoseconds to seconds. Divided: 9.6e9 · 1e-9 is 9.600000000000001.
 fn seconds(ns: i64) -> f64 {
-    ns as f64 * 1e-9
+    ns as f64 / 1e9
 }

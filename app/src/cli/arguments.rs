@@ -6,8 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use vitriol_lesson::Language;
 use vitriol_run::Colour;
-use vitriol_run::arguments::{file_of, filter, named, positive, preset, whole};
-use vitriol_run::units::pair;
+use vitriol_run::arguments::{effort, file_of, filter, named, positive, preset, whole};
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 #[cfg(feature = "class")]
@@ -90,7 +89,7 @@ pub struct ReplayArgs {
     #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["preset", "solver"])]
     pub budget_ms: Option<f64>,
     /// Substeps and iterations in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SxI", value_parser = effort, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
     /// Simulated seconds, for which hands hold still after the track's end; without it the whole track
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use vitriol_run::arguments::{named, not_negative, positive, preset, whole};
-use vitriol_run::units::pair;
+use vitriol_run::arguments::{effort, named, not_negative, positive, preset, whole};
 use vitriol_sim::scene::Preset;
 
 use super::arguments::rate;
@@ -50,7 +49,7 @@ pub struct ExportArgs {
     #[arg(long, value_parser = preset())]
     pub preset: Option<Preset>,
     /// Substeps and iterations in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SxI", value_parser = effort, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
     /// Seed of the particles' initial jitter; without it that of the track or run
     #[arg(long, value_parser = whole::<u64>(0), allow_negative_numbers = true)]

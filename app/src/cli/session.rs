@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use vitriol_lesson::{Language, Mode};
-use vitriol_run::arguments::{MOST_FRAMES, between, file_of, positive, preset, whole};
-use vitriol_run::units::pair;
+use vitriol_run::arguments::{MOST_FRAMES, between, effort, file_of, positive, preset, whole};
 use vitriol_sim::scene::Preset;
 
 use super::class::KeepArgs;
@@ -37,7 +36,7 @@ pub struct SessionArgs {
     #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["preset", "solver"])]
     pub budget_ms: Option<f64>,
     /// Substeps and iterations of the scene to begin with in place of the preset's, such as 10x3
-    #[arg(long, value_name = "SxI", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SxI", value_parser = effort, allow_hyphen_values = true)]
     pub solver: Option<[u32; 2]>,
     /// How it is drawn
     #[command(flatten)]

@@ -1,7 +1,9 @@
 //! A recording's settings for its replay, and what is asked for instead.
 
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 use vitriol_lesson::procedure::Progress;
-use vitriol_lesson::{Event, Language};
+use vitriol_lesson::{Event, Language, whole_nanoseconds};
 use vitriol_run::texts::Texts;
 use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET, key};
 use vitriol_run::units::{grouped, three_digits};
@@ -130,16 +132,32 @@ fn has_recorded_text(metadata: &TrackMetadata, name: &str, scenes: &Scenes) -> b
 /// The events that the session recorded; one that this version cannot read is left out.
 pub fn recorded_events(track: &Track) -> Vec<Event> {
     let events = track.events.iter();
-    events
-        .filter_map(|(_, json)| serde_json::from_str(json).ok())
-        .collect()
+    events.filter_map(|(_, json)| noted(json)).collect()
 }
 
 /// The progress that the session recorded of its lesson; what this version cannot read is left out.
 pub fn recorded_progress(track: &Track) -> Vec<Progress> {
     let said = track.progress.iter();
-    said.filter_map(|(_, json)| serde_json::from_str(json).ok())
-        .collect()
+    said.filter_map(|(_, json)| noted(json)).collect()
+}
+
+/// What a session noted. Recordings of older versions have times with rounding errors, and a comparison to the bit would find these.
+fn noted<T: DeserializeOwned>(json: &str) -> Option<T> {
+    let mut noted = serde_json::from_str(json).ok()?;
+    round_times(&mut noted);
+    serde_json::from_value(noted).ok()
+}
+
+fn round_times(value: &mut Value) {
+    let Value::Object(fields) = value else { return };
+    for (name, value) in fields {
+        match value.as_f64() {
+            Some(seconds) if ["t_s", "until_s", "evidence_s"].contains(&name.as_str()) => {
+                *value = whole_nanoseconds(seconds).into();
+            }
+            _ => round_times(value),
+        }
+    }
 }
 
 /// The preset that was asked for, or else the one that the track was recorded
@@ -201,10 +219,46 @@ pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use super::*;
     use vitriol_run::track;
+
+    /// 108 steps of 0.011111111111111 s, as an older version noted their time.
+    #[test]
+    fn what_was_noted_has_times_of_whole_nanoseconds() {
+        let mut recorded = track::load("hands-off").unwrap();
+        let old = "1.199999999999988";
+        let notes = |texts: [String; 2]| texts.map(|json| (0, json)).to_vec();
+        recorded.events = notes([
+            format!(
+                r#"{{"event":"ended","t_s":2.5,"contents":{{}},"bench_m3":{old},"floor_m3":0.0,
+                "hottest":{{"t_s":{old},"flask":null,"temperature_c":20.0}}}}"#
+            ),
+            r#"{"event":"of a later version","t_s":1.0}"#.into(),
+        ]);
+        recorded.progress = notes([
+            format!(r#"{{"progress":"step-done","t_s":{old},"id":"a","evidence_s":{old}}}"#),
+            format!(r#"{{"progress":"over","t_s":{old}}}"#),
+        ]);
+        let events = recorded_events(&recorded);
+        let [Event::Ended(ending)] = &events[..] else {
+            panic!("{events:?}");
+        };
+        let hottest = ending.hottest.as_ref().unwrap().t_s;
+        // A volume is no time.
+        assert_eq!(
+            [ending.t_s, hottest, ending.bench_m3],
+            [2.5, 1.2, 1.199999999999988]
+        );
+        let done = Progress::StepDone {
+            t_s: 1.2,
+            id: "a".into(),
+            evidence_s: 1.2,
+        };
+        let over = Progress::Over { t_s: 1.2 };
+        assert_eq!(recorded_progress(&recorded), [done, over]);
+    }
 
     /// A recording's own changes of the solver are repeated, unless something else is asked for.
     #[test]

@@ -82,7 +82,7 @@ fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
         input: input.to_owned(),
         output: output.display().to_string(),
         frames: written.frames,
-        duration_s: written.end_ns as f64 * 1e-9,
+        duration_s: written.end_ns as f64 / 1e9,
     };
     emit(format, &conversion, |done| {
         format!(

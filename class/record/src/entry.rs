@@ -2,7 +2,7 @@
 
 use jiff::{SignedDuration, Timestamp};
 use uuid::Uuid;
-use vitriol_lesson::Attempt;
+use vitriol_lesson::{Attempt, whole_nanoseconds};
 
 use crate::Pseudonym;
 
@@ -41,7 +41,7 @@ impl Entry {
             Some(ending) => ending.t_s,
             None => happened.fold(attempt.begun_s, f64::max),
         };
-        (end - attempt.begun_s).max(0.0)
+        whole_nanoseconds((end - attempt.begun_s).max(0.0))
     }
 }
 
@@ -168,6 +168,25 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::example;
+
+    /// 9.3 - 0.7 is 8.600000000000001.
+    #[test]
+    fn a_duration_is_of_whole_nanoseconds() {
+        let mut attempt = example::attempt();
+        attempt.begun_s = 0.7;
+        attempt.ending.as_mut().unwrap().t_s = 9.3;
+        let entry = Entry {
+            id: Uuid::nil(),
+            pseudonym: "p07".parse().unwrap(),
+            begun: "2026-03-01T08:00:00Z".parse().unwrap(),
+            lesson: None,
+            source: None,
+            score: None,
+            attempt,
+        };
+        assert_eq!(entry.duration_s(), 8.6);
+    }
 
     #[test]
     fn a_score_is_a_part_of_its_most() {

@@ -26,6 +26,7 @@ use crate::event::{Content, Contents, Ending, Event};
 use crate::glass::{Glass, Glassware};
 use crate::limits::Limits;
 use crate::mixing::layered;
+use crate::time::whole_nanoseconds;
 use broken::GlassFalls;
 use flows::Flows;
 pub use flows::Stream;
@@ -65,6 +66,13 @@ pub struct Seen<'a> {
     pub sash_open: Option<f64>,
     /// Rod and thermometer.
     pub dipped: &'a [Dipped],
+}
+
+impl Seen<'_> {
+    /// Simulated time of the run at the previous observation, s.
+    fn before(&self) -> f64 {
+        whole_nanoseconds(self.t - self.elapsed)
+    }
 }
 
 /// A rod or a thermometer after the step.
@@ -222,7 +230,7 @@ impl Finder {
         let contents = bench.contents(seen.census);
         if !std::mem::replace(&mut self.begun, true) {
             said.push(Event::Begun {
-                t_s: seen.t - seen.elapsed,
+                t_s: seen.before(),
                 scene: self.scene.clone(),
                 contents: contents.clone(),
                 glass: self.glass.clone(),

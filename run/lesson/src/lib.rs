@@ -20,6 +20,7 @@ mod score;
 pub mod skin;
 mod table;
 mod texts;
+mod time;
 mod units;
 mod words;
 
@@ -42,4 +43,5 @@ pub use table::{SPREADSHEET_MARK, TableError, incidents_csv, spreadsheet_text};
 pub use texts::{
     CurveTexts, FaultTexts, FigureTexts, PlotTexts, ReportTexts, Template, Texts, TextsError,
 };
+pub use time::whole_nanoseconds;
 pub use words::{Sentence, Tone, sentences};

@@ -23,6 +23,7 @@ mod lifeline;
 mod limits;
 mod lip;
 mod loads;
+mod loop_turns;
 mod measured;
 mod neighbours;
 mod nozzle;

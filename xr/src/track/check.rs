@@ -108,14 +108,14 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
         ));
     }
     let Some((step, time_ns)) = before else {
-        return Ok(());
+        return start(frame);
     };
     if frame.step <= step {
         return Err(Flaw::new(
             names::FRAME,
             "sequence",
             format!("goes from {step} to {}", frame.step),
-            "each frame has a higher step than the one before",
+            "each frame has a higher step than the one before: sort the file by log time",
         ));
     }
     if frame.time_ns == time_ns {
@@ -138,6 +138,24 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
         ));
     }
     Ok(())
+}
+
+/// Checks that a whole track begins at 0, where the simulation does. A later one was shifted by another program: its first pose would be
+/// held until then, and all would come too late. It is not shifted back here, since the file's other topics have the same clock. A first
+/// step above 0 is another thing: it says what is missing before it, and only a replay refuses that.
+fn start(frame: &PoseFrame) -> Result<(), Flaw> {
+    if frame.step > 0 || frame.time_ns == 0 {
+        return Ok(());
+    }
+    let late = frame.time_ns;
+    Err(Flaw::new(
+        names::FRAME,
+        "log_time",
+        format!("of step 0 is {} s", seconds(late)),
+        format!(
+            "a track's step 0 is at 0 s: subtract {late} ns from each time in the file, or take the original"
+        ),
+    ))
 }
 
 fn pose(pose: &Pose, child: &str) -> Result<(), Flaw> {

@@ -15,7 +15,10 @@ fn a_negative_number_is_answered_with_its_bound() {
         ("replay x --seconds -1", "above 0"),
         ("replay x --budget-ms -0.5", "above 0"),
         ("replay x --seed -1", "from 0 to 18446744073709551615"),
-        ("replay x --solver -1x2", "two whole numbers above 0"),
+        (
+            "replay x --solver -1x2",
+            "two whole numbers above 0 with an x between them, such as 10x3",
+        ),
         ("picture x -o x.png --at -1", "above 0"),
         (
             "picture x -o x.png --at 1 --size -9x9",
@@ -49,6 +52,21 @@ fn a_negative_number_is_answered_with_its_bound() {
     for first in ["--from", "--at"] {
         let line = format!("export nowhere --format vtk --out new {first} 0");
         refuses(here, &words(&line), 2, &["nowhere: neither a file"]);
+    }
+}
+
+/// An option that there is not is a mistyped one, and no file of that name.
+#[test]
+fn an_unknown_option_is_not_taken_for_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for (line, part) in [
+        ("picture two-flasks --fov 50", "unexpected argument '--fov'"),
+        ("replay x --secnds 3", "'--seconds'"),
+    ] {
+        refuses(folder.path(), &words(line), 2, &[part]);
+        let output = VITRIOL.run(folder.path(), &words(line));
+        let message = text(&output.stderr);
+        assert!(!message.contains("'-- "), "{line}: {message}");
     }
 }
 

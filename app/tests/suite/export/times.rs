@@ -7,8 +7,11 @@ use serde_json::Value;
 
 use crate::export::{number, object};
 
+/// A time that was written, which has nine decimals at most: a sum of steps such as 0.033333333333333 s has none of another format's.
 fn nanoseconds(seconds: f64) -> u64 {
-    (seconds * 1e9).round() as u64
+    let whole = (seconds * 1e9).round();
+    assert_eq!(seconds, whole / 1e9);
+    whole as u64
 }
 
 /// The number between two texts of a file, the first of which comes but once.
@@ -78,8 +81,9 @@ fn a_state_has_one_time_in_all_formats() {
     assert_eq!(rows, samples);
     assert_eq!(times["/measurements"], samples);
 
-    // Glass and pictures are those of states too.
+    // Glass and pictures are those of states too. The first picture is of the first step's end.
     let flasks = &times["/flasks"];
+    assert_eq!((flasks[0], times["/film"][0]), (0, flasks[1]));
     let of_states = moments.iter().chain(&samples).chain(&times["/film"]);
     for time in of_states {
         assert!(flasks.contains(time), "{time} ns of {flasks:?}");

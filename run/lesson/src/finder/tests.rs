@@ -135,6 +135,18 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-9)
 }
 
+/// A pour begins with the step before the observation that shows it: at 0.06 s, where 0.06 + 0.01 - 0.01 is 0.05999999999999999.
+#[test]
+fn a_pour_begins_at_a_whole_time() {
+    let mut arranged = Arranged::new([0.0, 0.98]);
+    arranged.tilt(0, 80.0);
+    arranged.looks(5, &|census| census);
+    arranged.t = 0.06;
+    arranged.pours(100, 4e-6 * STEP, 0.0, Place::Flask(1));
+    let (pours, incidents) = arranged.end();
+    assert_eq!([pours[0].t_s, incidents[0].t_s], [0.06; 2]);
+}
+
 /// 4 mL of water in a second, a pause too short to end a pour, and 4 mL more: one pour, which is the incorrect order and not too fast.
 /// Acid into water at six times the limit is in order, and too fast.
 #[test]

@@ -16,8 +16,8 @@ pub(super) fn m3(ml: f64) -> f64 {
 const SETTLED: f64 = 0.5;
 /// Least speed of a rod that stirs, m/s: a slower rod is held by a hand that trembles. Our choice.
 const STIRS: f64 = 0.02;
-/// Tolerance of times, which are sums of steps and rounded, s.
-const ROUNDING: f64 = 1e-9;
+/// Tolerance of times, s, and of sums, as a share: times are rounded to nanoseconds, so that each span is off by up to one.
+const ROUNDING: f64 = 1e-8;
 
 /// State of one condition that is neither `all` nor `any`.
 #[derive(Clone, Debug, Default)]

@@ -169,6 +169,13 @@ fn shake_shakes_hard_above_the_table() {
     );
 }
 
+/// 9.6e9 · 1e-9 is 9.600000000000001.
+#[test]
+fn a_length_is_as_it_was_written() {
+    let written = load("two-flasks").unwrap().duration().to_string();
+    assert_eq!(written, "9.6");
+}
+
 /// The built-in track of that name from a time on, s: the hand closed in the box of gloves before.
 fn later(name: &str, from: f64) -> Track {
     let mut track = load(name).unwrap();

@@ -229,7 +229,35 @@ fn order() {
         raw.sequence = 18 - 10;
     }
     let step = read(&messages, true).unwrap_err();
-    assert_says(&step, &["sequence", "from 18 to 8", "higher step"]);
+    let parts = [
+        "sequence",
+        "from 18 to 8",
+        "higher step",
+        "sort the file by log time",
+    ];
+    assert_says(&step, &parts);
+}
+
+/// All times were shifted, as by a program that joins files. A track of which the beginning was cut off has later steps, and is read.
+#[test]
+fn a_whole_track_begins_at_zero() {
+    let mut messages = good();
+    for raw in &mut messages {
+        raw.log_time += 5_000_000_000;
+    }
+    let late = read(&messages, true).unwrap_err();
+    let parts = ["step 0 at 5 s", "log_time", "subtract 5000000000 ns"];
+    assert_says(&late, &parts);
+    messages.retain(|raw| raw.sequence > 0);
+    assert_eq!(read(&messages, true).unwrap().missing_first(), 1);
+
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("late.mcap");
+    let mut writer = TrackWriter::create(&file, &super::metadata(), Existing::Refuse).unwrap();
+    let mut frame = super::frame(0);
+    frame.time_ns = 1;
+    let refused = writer.write(&frame, &[]).unwrap_err().to_string();
+    assert_says(&refused, &["log_time", "subtract 1 ns"]);
 }
 
 #[test]
