@@ -28,7 +28,6 @@ pub(crate) const SLOTS: usize = 2;
 pub(crate) struct Fluid {
     desc: LiquidDesc,
     extent: [u32; 2],
-    views: u32,
     passes: Passes,
     /// Ellipsoids of the frame that is drawn, and of the frame that is solved.
     ellipsoids: [Buffer; SLOTS],
@@ -61,7 +60,6 @@ impl Fluid {
         Ok(Self {
             desc,
             extent,
-            views,
             passes: Passes::new(gpu, library, desc.filter, lanes)?,
             ellipsoids: [
                 Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
@@ -96,11 +94,12 @@ impl Fluid {
         source.check(&self.desc)
     }
 
-    /// Records the passes from the ellipsoids in a slot up to the filtered depth; the lists of tiles must have been recorded.
+    /// Records the passes from the ellipsoids in a slot up to the filtered depth of a frame's `views`; the lists of tiles must have been
+    /// recorded.
     pub(crate) fn record_surface(
         &self,
         rec: &mut Recorder,
-        (slot, count): (usize, u32),
+        (slot, count, views): (usize, u32, u32),
         uniforms: &Buffer,
         tiles: &Tiles,
     ) -> Result<(), RenderError> {
@@ -114,7 +113,7 @@ impl Fluid {
                     .read("ellipsoids", self.ellipsoids(slot))
                     .write(name, into)
                     .constants(&layout::Splats { count })
-                    .workgroups(workgroups(count, lanes, self.views))
+                    .workgroups(workgroups(count, lanes, views))
             })
         };
         splat(

@@ -77,7 +77,7 @@ pub struct FrameDesc<'a> {
     /// Width and height of each view as drawn, pixels, if that is less than the renderer's: the picture is then in the upper left corner
     /// of its images, and the pixels beside it are undefined.
     pub extent: Option<[u32; 2]>,
-    /// The eyes, as many as the renderer has views.
+    /// The eyes: as many as the renderer has views, or fewer, of which it draws the first. What its images have of the others stays then.
     pub views: &'a [View],
     /// `stage_from_vessel` of each vessel of the scene, rigid, in the scene's
     /// unit.
@@ -170,9 +170,10 @@ impl<'a> FrameDesc<'a> {
             return Err(RenderError::NotFoveated);
         }
         let whole = self.part_of.unwrap_or(self.views);
+        let views = self.views.len().clamp(1, desc.views as usize);
         let counts = [
-            ("views", self.views.len(), desc.views as usize),
-            ("whole views", whole.len(), desc.views as usize),
+            ("views", self.views.len(), views),
+            ("whole views", whole.len(), views),
             ("vessel poses", self.vessels.len(), scene.vessels.len()),
         ];
         for (what, given, wanted) in counts {

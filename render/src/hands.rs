@@ -18,16 +18,10 @@ pub(crate) struct Hands {
     /// Draws them in tiles of which blocks are shaded; only where frames may be foveated.
     coarse_pass: Option<ComputePipeline>,
     bones: Buffer,
-    views: u32,
 }
 
 impl Hands {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        library: &Library,
-        views: u32,
-        foveated: bool,
-    ) -> Result<Self, RenderError> {
+    pub(crate) fn new(gpu: &Gpu, library: &Library, foveated: bool) -> Result<Self, RenderError> {
         let light = |class: Class, side: f64| {
             let constants = [("CLASS", f64::from(class as u32)), ("SIDE", side)];
             compute(gpu, library, hands::LIGHT, &constants)
@@ -39,7 +33,6 @@ impl Hands {
             light_pass: light(Class::Hands, 1.0)?,
             coarse_pass: foveated.then(coarse).transpose()?,
             bones: Buffer::storage(gpu, "bones", bytes)?,
-            views,
         })
     }
 
@@ -77,6 +70,7 @@ impl Hands {
             }
         }
         rec.upload(&self.bones, &bones)?;
+        let views = frame.views.len() as u32;
         rec.group("hands", |rec| {
             rec.pass(&self.mark_pass)
                 .label("hands")
@@ -84,7 +78,7 @@ impl Hands {
                 .read("bones", &self.bones)
                 .write("tiles", tiles.marks())
                 .constants(&run(frame))
-                .workgroups([(GROUPS * MOST_BONES) as u32, self.views, 1])
+                .workgroups([(GROUPS * MOST_BONES) as u32, views, 1])
         })
     }
 

@@ -95,9 +95,9 @@ impl Renderer {
             hidden: None,
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
-            spheres: Spheres::new(gpu, library, views, lanes)?,
+            spheres: Spheres::new(gpu, library, lanes)?,
             spray: Spray::new(gpu, library)?,
-            hands: Hands::new(gpu, library, views, desc.foveated)?,
+            hands: Hands::new(gpu, library, desc.foveated)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
             between: Sampler::linear(gpu)?,
@@ -125,11 +125,11 @@ impl Renderer {
         let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
         let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views, lanes));
         let fluid = fluid.transpose()?;
-        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views, lanes));
+        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, lanes));
         let spheres = spheres.transpose()?;
         let spray = Spray::uses(changed).then(|| Spray::new(gpu, library));
         let spray = spray.transpose()?;
-        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views, foveated));
+        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, foveated));
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;
@@ -245,10 +245,10 @@ impl Renderer {
             Some((fluid, source)) => (fluid.ellipsoids(slot), source.count),
             None => (&self.nothing, 0),
         };
-        let steam = frame.steam.as_ref();
-        self.tiles.mark(rec, &self.frame, shapes, steam)?;
+        let (steam, views) = (frame.steam.as_ref(), frame.views.len() as u32);
+        self.tiles.mark(rec, &self.frame, shapes, steam, views)?;
         if let Some(particles) = &frame.particles {
-            let solids = &self.solids;
+            let (solids, particles) = (&self.solids, (particles, views));
             self.spheres
                 .record_nearest(rec, &self.frame, particles, solids, &self.tiles)?;
         }
@@ -265,11 +265,12 @@ impl Renderer {
             rec,
             &self.frame,
             self.hidden(frame),
-            frame.extent(self.desc.extent),
+            (frame.extent(self.desc.extent), views),
             &foveae(frame.foveation, frame.views),
         )?;
         liquid.map_or(Ok(()), |(fluid, source)| {
-            fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
+            let shapes = (slot, source.count, views);
+            fluid.record_surface(rec, shapes, &self.frame, &self.tiles)
         })
     }
 

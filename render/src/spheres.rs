@@ -16,24 +16,17 @@ use crate::tiles::{Class, Tiles};
 pub(crate) struct Spheres {
     nearest_pass: ComputePipeline,
     light_pass: ComputePipeline,
-    views: u32,
     info: DeviceInfo,
     /// Lanes of a sphere that were asked for.
     asked: Option<u32>,
 }
 
 impl Spheres {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        library: &Library,
-        views: u32,
-        asked: Lanes,
-    ) -> Result<Self, RenderError> {
+    pub(crate) fn new(gpu: &Gpu, library: &Library, asked: Lanes) -> Result<Self, RenderError> {
         let class = ("CLASS", f64::from(Class::Spheres as u32));
         Ok(Self {
             nearest_pass: compute(gpu, library, spheres::NEAREST, &[])?,
             light_pass: compute(gpu, library, spheres::LIGHT, &[class])?,
-            views,
             info: gpu.info().clone(),
             asked: asked.pixels,
         })
@@ -46,13 +39,13 @@ impl Spheres {
             .any(|id| id.path().starts_with("render/spheres/"))
     }
 
-    /// Records the passes that find the nearest sphere of each pixel and mark the tiles with spheres, after the other marks and before the
-    /// lists.
+    /// Records the passes that find the nearest sphere of each pixel of so many views and mark the tiles with spheres, after the other marks
+    /// and before the lists.
     pub(crate) fn record_nearest(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
-        particles: &ParticleSource<'_>,
+        (particles, views): (&ParticleSource<'_>, u32),
         solids: &Solids,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
@@ -74,7 +67,7 @@ impl Spheres {
                         radius: particles.radius,
                         numbers,
                     })
-                    .workgroups(workgroups(particles.count, lanes, self.views))?;
+                    .workgroups(workgroups(particles.count, lanes, views))?;
             }
             Ok(())
         })

@@ -100,7 +100,6 @@ pub(crate) struct Tiles {
     /// Sizes of the dispatches over the lists.
     arguments: Buffer,
     puffs: Buffer,
-    views: u32,
 }
 
 impl Tiles {
@@ -121,17 +120,17 @@ impl Tiles {
             lists: words("tile lists", LISTS * u64::from(count))?,
             arguments: words("tile dispatches", 3 * LISTS)?,
             puffs: words("puffs in tiles", u64::from(PUFF_WORDS) * u64::from(count))?,
-            views,
         })
     }
 
-    /// Records the marking of a frame's tiles, with `count` of `ellipsoids`.
+    /// Records the marking of the tiles of a frame's `views`, with `count` of `ellipsoids`.
     pub(crate) fn mark(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
         (ellipsoids, count): (&Buffer, u32),
         steam: Option<&SteamSource<'_>>,
+        views: u32,
     ) -> Result<(), GpuError> {
         rec.group("tiles", |rec| {
             rec.fill(&self.marks, 0)?;
@@ -152,19 +151,19 @@ impl Tiles {
                     .write("puffs_in_tiles", &self.puffs)
                     .write("tiles", &self.marks)
                     .constants(&layout::PuffCount { count: steam.count })
-                    .workgroups([steam.count.div_ceil(64), self.views, 1])?;
+                    .workgroups([steam.count.div_ceil(64), views, 1])?;
             }
             Ok(())
         })
     }
 
-    /// Records the pass that lists the marked tiles of views of `extent` by class and by how sharp they are to be.
+    /// Records the pass that lists the marked tiles of so many views of `extent` by class and by how sharp they are to be.
     pub(crate) fn list(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
         hidden: &Buffer,
-        extent: [u32; 2],
+        (extent, views): ([u32; 2], u32),
         foveae: &layout::Foveae,
     ) -> Result<(), GpuError> {
         let [columns, rows] = tiles_of(extent);
@@ -177,7 +176,7 @@ impl Tiles {
                 .write("tile_lists", &self.lists)
                 .write("arguments", &self.arguments)
                 .constants(foveae)
-                .invocations(columns * rows * self.views)
+                .invocations(columns * rows * views)
         })
     }
 

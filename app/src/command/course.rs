@@ -8,7 +8,7 @@ use vitriol_lesson::{FaultTexts, Language, Lesson, Mode, SceneFacts};
 use vitriol_run::texts::Otherwise;
 use vitriol_run::track::{LESSON, LESSON_HASH, MODE};
 use vitriol_run::{Blame, Failure, Judging, Scenes};
-use vitriol_xr::files;
+use vitriol_xr::files::{self, FileError};
 use vitriol_xr::track::Track;
 
 use crate::cli::JudgeArgs;
@@ -63,7 +63,14 @@ pub fn open(name: &str, language: Language) -> Result<Lesson, Failure> {
     let text = match Lesson::builtin_text(name) {
         Some(text) => text,
         None => {
-            read = files::read_text(Path::new(name), "lesson", LONGEST).input()?;
+            let opened = files::read_text(Path::new(name), "lesson", LONGEST);
+            read = match opened {
+                Ok(text) => text,
+                Err(error) => {
+                    let texts = FaultTexts::of(language).other()?;
+                    return Err(unopened(name, &error, &texts)).input();
+                }
+            };
             read.as_str()
         }
     };
@@ -73,6 +80,20 @@ pub fn open(name: &str, language: Language) -> Result<Lesson, Failure> {
         Ok(Some(facts))
     })
     .input()
+}
+
+/// Why a lesson's file cannot be read, in these texts.
+fn unopened(name: &str, error: &FileError, texts: &FaultTexts) -> String {
+    match error {
+        FileError::NotAFile { .. } => texts.folder.fill(&[("name", name)]),
+        FileError::TooLong { limit, .. } => {
+            (texts.too_long).fill(&[("name", name), ("most", &limit.to_string())])
+        }
+        FileError::NotText { .. } => texts.encoding.fill(&[("name", name)]),
+        FileError::Io { source, .. } => {
+            (texts.unopened).fill(&[("name", name), ("why", &source.to_string())])
+        }
+    }
 }
 
 /// As [`files::suggested`], for a lesson and in these texts.

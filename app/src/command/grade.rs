@@ -2,6 +2,7 @@
 //! track again.
 
 mod agreement;
+mod beyond;
 mod expected;
 mod graded;
 mod lesson;

@@ -6,7 +6,6 @@ mod subtitles;
 
 use serde::Serialize;
 use vitriol_lesson::{Language, Lesson, Texts};
-use vitriol_run::units::count;
 use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit, escaped};
 
 use crate::cli::{LessonArgs, LessonCommand};
@@ -101,14 +100,17 @@ pub fn run(
     if let Some(film) = &args.film {
         return film::make((args, film), &lesson, format, prepare);
     }
+    let heads = vitriol_run::texts::Texts::of(language)?.grades;
     emit(format, &told, |told| {
         let mut text = format!(
-            "{}\n{}\n{}\nscene {}, {}\n",
+            "{}\n{}\n{}\n{}: {}, {}: {}\n",
             modes(told, &lesson),
             told.title,
             told.summary,
+            heads.scene,
             told.scene,
-            count(told.points.into(), "point")
+            heads.points,
+            told.points
         );
         for (number, step) in (1..).zip(&told.steps) {
             text += &format!("{number:>3}  {} ({})\n", step.text, step.points);

@@ -303,6 +303,20 @@ fn a_simulation_confirms_or_refutes() {
     for (name, _, _, _, verdict) in cases {
         assert_eq!(line(&class, name).verified, Some(verdict));
     }
+    // In what they differ is told anew in the language of the call.
+    let german = read(here, &[&more[..], &["--language", "de"]].concat());
+    assert_eq!(german.taken, 4);
+    for (name, part) in [
+        ("other-device", "0,00 s und 0,08 mL"),
+        ("forged", "verschüttet (Tisch): in der Aufnahme 0,00 mL"),
+        (
+            "other-bits",
+            "auf demselben Gerät nicht bis aufs Bit gleich",
+        ),
+    ] {
+        let note = &line(&german, name).note;
+        assert!(note.contains(part), "{name}: {note}");
+    }
     let again = [&more[..], &["--verify"]].concat();
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
     // The page says so too, in words; nowhere does it where nobody asked.

@@ -1,6 +1,7 @@
 //! Codes pictures for the console on a thread of its own: a picture takes longer than a frame may.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
@@ -28,6 +29,9 @@ pub enum Viewpoint {
     CloseUp,
 }
 
+/// How many viewpoints there are.
+const VIEWPOINTS: usize = 2;
+
 /// A picture to be coded.
 pub enum RawPicture {
     /// 0x00RRGGBB, rows from the top, in memory that the device has written and the host reads, and its width and height.
@@ -42,9 +46,29 @@ type Given = (RawPicture, Viewpoint, u64);
 /// Codes pictures for the console on a thread of its own, which ends when this is dropped.
 pub struct Coder {
     port: Port,
-    /// One of each viewpoint waits at most: what is older than that is not live.
+    /// `None` once it ends.
     pictures: Option<SyncSender<Given>>,
+    /// By viewpoint, whether a picture waits.
+    waits: Arc<[AtomicBool; VIEWPOINTS]>,
     thread: Option<std::thread::JoinHandle<()>>,
+}
+
+/// The pictures that wait to be coded: one of each viewpoint at most, since what is older than that is not live. The student's pictures,
+/// 30 a second, so leave a place to those from close by, which are six times rarer, where coding takes longer than a 30th of a second.
+struct Queue {
+    pictures: Receiver<Given>,
+    waits: Arc<[AtomicBool; VIEWPOINTS]>,
+}
+
+impl Iterator for Queue {
+    type Item = Given;
+
+    /// The next one, which is waited for; `None` once the coder ends.
+    fn next(&mut self) -> Option<Given> {
+        let given = self.pictures.recv().ok()?;
+        self.waits[given.1 as usize].store(false, Ordering::Release);
+        Some(given)
+    }
 }
 
 impl Coder {
@@ -53,17 +77,27 @@ impl Coder {
     /// # Errors
     /// Where no thread can be started.
     pub fn new(port: &Port) -> Result<Self, Failure> {
-        let (pictures, queue) = sync_channel(2);
+        let (mut coder, queue) = Self::without_thread(port);
         let own = port.clone();
         let thread = std::thread::Builder::new()
             .name("console-view".to_owned())
-            .spawn(move || code_all(&own, &queue))
+            .spawn(move || code_all(&own, queue))
             .other()?;
-        Ok(Self {
+        coder.thread = Some(thread);
+        Ok(coder)
+    }
+
+    /// A coder, and the queue that its thread takes pictures from.
+    fn without_thread(port: &Port) -> (Self, Queue) {
+        let (sender, pictures) = sync_channel(VIEWPOINTS);
+        let waits = Arc::<[AtomicBool; VIEWPOINTS]>::default();
+        let coder = Self {
             port: port.clone(),
-            pictures: Some(pictures),
-            thread: Some(thread),
-        })
+            pictures: Some(sender),
+            waits: waits.clone(),
+            thread: None,
+        };
+        (coder, Queue { pictures, waits })
     }
 
     /// Whether a page shows what is seen from there; of the student's eyes, also whether a picture for a card was asked for.
@@ -75,9 +109,13 @@ impl Coder {
         }
     }
 
-    /// Hands in the picture of that time (µs) since the view began; one that comes too soon after another is left out. Does not wait.
+    /// Hands in the picture of that time (µs) since the view began; while another from there waits, it is left out. Does not wait.
     pub fn give(&self, picture: RawPicture, from: Viewpoint, time_us: u64) {
-        if let Some(pictures) = &self.pictures {
+        let Some(pictures) = &self.pictures else {
+            return;
+        };
+        if !self.waits[from as usize].swap(true, Ordering::AcqRel) {
+            // There is room for one of each. It fails only where the thread has ended.
             let _ = pictures.try_send((picture, from, time_us));
         }
     }
@@ -93,7 +131,7 @@ impl Drop for Coder {
     }
 }
 
-fn code_all(port: &Port, queue: &Receiver<Given>) {
+fn code_all(port: &Port, queue: Queue) {
     let mut coding = Coding::default();
     let mut told = false;
     for (picture, from, time_us) in queue {
@@ -280,6 +318,36 @@ mod tests {
         // The second camera's mark, and width and height, little-endian.
         assert_eq!(seen[0], 4);
         assert_eq!(seen[4..8], [64, 0, 64, 0]);
+    }
+
+    /// While one picture is coded, one from each viewpoint waits, and further ones are left out, whichever come first.
+    #[test]
+    fn one_picture_of_each_viewpoint_waits() {
+        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
+        let hub = start(listen, false, Language::En).unwrap();
+        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
+        let port = hub.student(told).unwrap().unwrap();
+        let (coder, mut queue) = Coder::without_thread(&port);
+        let give = |from, time_us| {
+            let picture = RawPicture::Rgba(Vec::new(), [0; 2]);
+            coder.give(picture, from, time_us);
+        };
+        for (from, time_us) in [
+            (Viewpoint::Student, 0),
+            (Viewpoint::Student, 1),
+            (Viewpoint::CloseUp, 2),
+            (Viewpoint::CloseUp, 3),
+        ] {
+            give(from, time_us);
+        }
+        let seen = |(_, from, time_us): Given| (from, time_us);
+        assert_eq!(queue.next().map(seen), Some((Viewpoint::Student, 0)));
+        // Its place is free again, and the other one's is not.
+        give(Viewpoint::CloseUp, 4);
+        give(Viewpoint::Student, 5);
+        drop(coder);
+        let rest: Vec<_> = queue.map(seen).collect();
+        assert_eq!(rest, [(Viewpoint::CloseUp, 2), (Viewpoint::Student, 5)]);
     }
 
     mod long {

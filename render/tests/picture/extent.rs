@@ -35,6 +35,17 @@ const HIDDEN: [&[[f32; 2]]; 2] = [
 /// Glass, liquid, coloured spheres and steam for two eyes, drawn with `extent` by a renderer of `held`,
 /// after another picture that filled its images.
 fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
+    with_frame(held, masked, |rig, whole| {
+        rig.draw(&whole);
+        rig.draw(&FrameDesc {
+            extent: Some(extent),
+            ..whole
+        })
+    })
+}
+
+/// What is made of that frame, which fills the images of a renderer of `held`.
+fn with_frame<T>(held: [u32; 2], masked: bool, then: impl FnOnce(&Rig, FrameDesc<'_>) -> T) -> T {
     let mut rig: Rig = rig(held, 2, SurfaceFilter::NarrowRange);
     let glass = VesselDesc {
         inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
@@ -72,8 +83,7 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
     };
     let views = [look(0.02), look(0.09)];
     let vessels = [Affine3A::from_translation(FOOT)];
-    let of = |extent| FrameDesc {
-        extent,
+    let whole = FrameDesc {
         particles: Some(ParticleSource {
             positions: &balls.0,
             attributes: &balls.1,
@@ -87,8 +97,33 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
         }),
         ..frame(&views, &vessels, &liquid)
     };
-    rig.draw(&of(None));
-    rig.draw(&of(Some(extent)))
+    then(&rig, whole)
+}
+
+/// A frame of one view draws the first of two pictures, to the bit, and leaves the other one as it was.
+#[test]
+fn one_view_is_one_picture() {
+    let both = pictures(SMALL, SMALL, false);
+    let [before, one] = with_frame(SMALL, false, |rig, whole| {
+        let &[left, right] = whole.views else {
+            unreachable!("it is of two eyes")
+        };
+        let exchanged = [right, left];
+        let before = rig.draw(&FrameDesc {
+            views: &exchanged,
+            ..whole
+        });
+        let one = rig.draw(&FrameDesc {
+            views: &whole.views[..1],
+            ..whole
+        });
+        [before, one]
+    });
+    assert!(one.colour[0] == both.colour[0] && one.depth[0] == both.depth[0]);
+    assert!(one.colour[1] == before.colour[1] && one.depth[1] == before.depth[1]);
+    for eye in [0, 1] {
+        assert!(before.colour[eye] != both.colour[eye], "{eye}");
+    }
 }
 
 /// How much a smoothed edge may differ, levels of 255: a sampler takes places as shares of the image, and

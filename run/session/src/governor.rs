@@ -141,6 +141,13 @@ impl Governor {
         next
     }
 
+    /// Whether work of that much more time (ms) fits beside that of the next frames, by what the last ones took of the display's period (ms).
+    /// Not where too few of them are known.
+    pub fn has_room_for(&self, more: f64, period: f64) -> bool {
+        let foreseen = self.foreseen();
+        foreseen.is_some_and(|times| times.iter().sum::<f64>() + more <= FULL * period)
+    }
+
     fn age(&mut self, seconds: f64) {
         self.since_miss += seconds;
         for (risen, wait) in self.risen.iter_mut().zip(&mut self.wait) {

@@ -108,7 +108,7 @@ impl Subject {
 pub struct Outlook {
     /// Width and height as drawn, pixels: at most those that pictures are made for.
     pub extent: [u32; 2],
-    /// Both eyes in the scene's stage, real metres. Of a screen the first is drawn.
+    /// Both eyes in the scene's stage, real metres. Of a screen, and of what is [drawn again](Picture::draw_again), the first is drawn.
     pub views: [View; 2],
 }
 
@@ -253,26 +253,26 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Submits one more picture of what was drawn last, seen from elsewhere, behind it: [`Self::image`] has it until the next is drawn.
-    /// Lenses hide nothing of it.
+    /// Submits one more picture of what was drawn last, seen from elsewhere, behind it, with the first view alone: the first layer of
+    /// [`Self::image`] has it until the next is drawn. Lenses hide nothing of it.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn draw_again(&mut self, world: &World, sight: &Sight<'_>) -> Result<(), Failure> {
+    pub fn draw_again(&mut self, world: &World, sight: &Sight<'_>) -> Result<Ticket, Failure> {
         let mut rec = world.gpu().recorder(QueueKind::Main).other()?;
-        let whole = Some(&sight.eyes.views[..self.views]);
+        let whole = Some(&sight.eyes.views[..1]);
         // The other one is of the next picture.
         let slot = (self.drawn + 1) % 2;
         self.record(&mut rec, (world, slot), sight, (&sight.eyes, whole))?;
         let again = world.gpu().submit(rec).other()?;
         // Its slot is in use until this one is done.
         if let Some(last) = self.under_way.last_mut() {
-            *last = again;
+            *last = again.clone();
         }
-        Ok(())
+        Ok(again)
     }
 
-    /// Records one pair of pictures, which may be a part of those views.
+    /// Records one pair of pictures, which may be a part of those views; as many as there are of these.
     fn record(
         &self,
         rec: &mut Recorder,
@@ -280,10 +280,11 @@ impl Picture {
         sight: &Sight<'_>,
         (outlook, part_of): (&Outlook, Option<&[View]>),
     ) -> Result<(), Failure> {
+        let views = part_of.map_or(self.views, <[View]>::len);
         let record = |frame: &FrameDesc<'_>| {
             let frame = FrameDesc {
                 extent: Some(outlook.extent),
-                views: &outlook.views[..self.views],
+                views: &outlook.views[..views],
                 part_of,
                 ..*frame
             };

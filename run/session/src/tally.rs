@@ -28,6 +28,10 @@ pub struct Tally {
     pub solve_ms: Vec<f64>,
     /// The picture's, ms.
     pub picture_ms: Vec<f64>,
+    /// That of the last picture from close by that the device is done with, ms; 0 before there is one.
+    pub close_up_ms: f64,
+    /// One that is under way.
+    close_up: Option<Ticket>,
     /// Whether times are kept. In a session that nobody measures they would only fill memory.
     counts: bool,
     /// Whether the device's times are asked for, to be kept or for a governor.
@@ -158,6 +162,11 @@ impl Tally {
         }
     }
 
+    /// Takes the submission of a picture from close by, whose time [`Tally::collect`] reads once it is done.
+    pub fn close_up(&mut self, picture: Ticket) {
+        self.close_up = self.timed.then_some(picture);
+    }
+
     /// What the frames took that were collected since the last call.
     pub fn loads(&mut self) -> Vec<FrameLoad> {
         std::mem::take(&mut self.loads)
@@ -188,6 +197,12 @@ impl Tally {
                 stamp: frame.stamp,
             });
             self.pending.pop_front();
+        }
+        if let Some(picture) = &self.close_up
+            && picture.is_done().other()?
+        {
+            self.close_up_ms = total(picture)?;
+            self.close_up = None;
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ use vitriol_live::{CLOSE_UP_EVERY, Coder, RawPicture, VIEW_FPS, VIEW_SIDE, Viewp
 const EVERY: i64 = 1_000_000_000 / VIEW_FPS as i64;
 /// Width and height of pictures from close by, pixels. Our choice: the glass is 320 pixels high in them.
 const CLOSE_UP: [u32; 2] = [640, 480];
-/// Display time between two pictures from close by where frames do not fit the display's period, ns. Our choice: one frame in 216 pays for
+/// Display time between two pictures from close by where they do not fit beside frames, ns. Our choice: one frame in 216 pays for
 /// one where a headset shows 72 a second.
 const CLOSE_UP_RESTS: i64 = 3_000_000_000;
 
@@ -69,12 +69,12 @@ impl View {
     }
 
     /// Whether a picture from close by is to be drawn behind the one that is shown at `time` (ns), where that many display periods were
-    /// without a frame so far, and the governor has `lowered` what is solved and drawn, or not: the time since the last one, s.
-    pub fn close_up_is_due(&mut self, time: i64, missed: u64, lowered: bool) -> Option<f64> {
+    /// without a frame so far, and it `yields` to the headset's frames, or not: the time since the last one, s.
+    pub fn close_up_is_due(&mut self, time: i64, missed: u64, yields: bool) -> Option<f64> {
         if !self.coder.is_wanted(Viewpoint::CloseUp) {
             return None;
         }
-        self.turns.take(time, missed, lowered)
+        self.turns.take(time, missed, yields)
     }
 
     /// Takes the first `drawn` pixels of a picture from close by. To be called behind it.
@@ -92,7 +92,6 @@ impl View {
     /// An error of the device.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         for (shrink, from) in [
-            // The rarer one first, so that it finds a place.
             (&mut self.close_up, Viewpoint::CloseUp),
             (&mut self.shrink, Viewpoint::Student),
         ] {
@@ -121,9 +120,8 @@ struct Turns {
 
 impl Turns {
     /// Whether one is due, see [`View::close_up_is_due`], and then taken as drawn.
-    fn take(&mut self, time: i64, missed: u64, lowered: bool) -> Option<f64> {
-        let gives_way = lowered || missed != self.missed;
-        let every = match gives_way {
+    fn take(&mut self, time: i64, missed: u64, yields: bool) -> Option<f64> {
+        let every = match yields || missed != self.missed {
             true => CLOSE_UP_RESTS,
             false => CLOSE_UP_EVERY.as_nanos() as i64,
         };

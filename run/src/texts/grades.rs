@@ -65,6 +65,40 @@ pub struct VerifiedTexts {
     pub within_tolerance: String,
     /// Something is not.
     pub differs: String,
+    /// The bits differ, though nothing is known that would change them.
+    pub same_device: Template,
+    /// How far apart moments and volumes are that are within the tolerance.
+    pub apart: Template,
+    /// What is in the recording, and what was found.
+    pub values: Template,
+    /// How many attempts there are.
+    pub attempts: Template,
+    /// How often the lesson was begun.
+    pub lessons: Template,
+    /// What differs in an attempt.
+    pub attempt: Template,
+    /// Points of a step.
+    pub points_of: Template,
+    /// A moment.
+    pub at: Template,
+    /// Pours between two flasks.
+    pub poured: Template,
+    /// Pours that came to no flask.
+    pub poured_beside: Template,
+    /// A flask that broke.
+    pub broken: Template,
+    /// A part of the body that gloves or goggles protected.
+    pub protected: Template,
+    /// The bench.
+    pub bench: String,
+    /// The floor.
+    pub floor: String,
+    /// The left hand.
+    pub left_hand: String,
+    /// The right hand.
+    pub right_hand: String,
+    /// The face.
+    pub face: String,
 }
 
 /// What is wrong with the files of a class.

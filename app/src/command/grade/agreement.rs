@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use vitriol_lesson::Attempt;
-use vitriol_run::units::count;
+
+use super::beyond::{Beyond, Place, Thing, Values, two_decimals};
+use super::wrong::Words;
 
 /// How far what is found on two devices may be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,8 +62,8 @@ pub struct Agreement {
     pub time_s: f64,
     /// The most that volumes of the same thing are apart, m³.
     pub volume_m3: f64,
-    /// What is beyond the tolerance, each in a few words; empty where all is within.
-    pub beyond: Vec<String>,
+    /// What is beyond the tolerance; empty where all is within.
+    pub beyond: Vec<Beyond>,
 }
 
 /// Pours from one flask to another, or incidents of one kind in one place. They are summed up: where one of two devices sees a
@@ -80,12 +81,9 @@ impl Agreement {
     /// How the attempts in a recording agree with those that were found.
     pub fn of(recorded: &[Attempt], found: &[Attempt], tolerance: Tolerance) -> Self {
         let mut agreement = Self::default();
-        if recorded.len() != found.len() {
-            agreement.beyond.push(format!(
-                "{} in the recording, {} found",
-                count(recorded.len() as u64, "attempt"),
-                found.len()
-            ));
+        let numbers = [recorded.len(), found.len()];
+        if numbers[0] != numbers[1] {
+            agreement.beyond.push(Beyond::Attempts(numbers));
         }
         for (number, (recorded, found)) in (1..).zip(recorded.iter().zip(found)) {
             agreement.compare(number, &[sums(recorded), sums(found)], tolerance);
@@ -93,16 +91,20 @@ impl Agreement {
         agreement
     }
 
-    fn compare(&mut self, attempt: u32, both: &[BTreeMap<String, Sum>; 2], tolerance: Tolerance) {
-        let keys: BTreeSet<&String> = both.iter().flat_map(BTreeMap::keys).collect();
+    fn compare(&mut self, attempt: u32, both: &[BTreeMap<Thing, Sum>; 2], tolerance: Tolerance) {
+        let keys: BTreeSet<&Thing> = both.iter().flat_map(BTreeMap::keys).collect();
         for key in keys {
             let nothing = Sum::default();
             let [recorded, found] = both
                 .each_ref()
                 .map(|sums| sums.get(key).unwrap_or(&nothing));
-            let mut beyond = |text: String| {
-                self.beyond
-                    .push(format!("attempt {attempt}, {key}: {text}"));
+            let mut beyond = |values: Values| {
+                let thing = key.clone();
+                self.beyond.push(Beyond::Thing {
+                    attempt,
+                    thing,
+                    values,
+                });
             };
             let volumes = [recorded, found].map(|it| it.volume_m3);
             if volumes.iter().any(Option::is_some) {
@@ -111,8 +113,7 @@ impl Agreement {
                 // An amount that is no number is none that agrees.
                 let within = (a - b).abs() <= tolerance.share * a.max(b) + tolerance.volume_m3;
                 if !within {
-                    let [a, b] = [a, b].map(|volume| 1e6 * volume);
-                    beyond(format!("{a:.2} mL in the recording, {b:.2} mL found"));
+                    beyond(Values::Volumes([a, b]));
                     continue;
                 }
                 if a.min(b) <= tolerance.volume_m3 {
@@ -120,59 +121,49 @@ impl Agreement {
                     continue;
                 }
             } else if recorded.count != found.count {
-                let (a, b) = (recorded.count, found.count);
-                beyond(format!("{a} in the recording, {b} found"));
+                beyond(Values::Counts([recorded.count, found.count]));
                 continue;
             }
             let [a, b] = [recorded, found].map(|it| it.largest.0);
             self.time_s = self.time_s.max((a - b).abs());
             let within = (a - b).abs() <= tolerance.time_s;
             if !within {
-                beyond(format!("at {a:.2} s in the recording, at {b:.2} s found"));
+                beyond(Values::Moments([a, b]));
             }
         }
     }
 
     /// In a few words.
-    pub fn text(&self) -> String {
+    pub fn text(&self, words: &Words) -> String {
         if self.beyond.is_empty() {
-            format!(
-                "differs by at most {:.2} s and {:.2} mL",
-                self.time_s,
-                1e6 * self.volume_m3
-            )
+            let apart = [self.time_s, 1e6 * self.volume_m3];
+            let [seconds, millilitres] = apart.map(|it| two_decimals(it, words));
+            let holes = [("seconds", &*seconds), ("millilitres", &*millilitres)];
+            words.grades.verified.apart.fill(&holes)
         } else {
-            self.beyond.join("; ")
+            let told = self.beyond.iter().map(|it| it.told(words));
+            told.collect::<Vec<_>>().join("; ")
         }
     }
 }
 
 /// What an attempt holds, by what, where and of which flasks.
-fn sums(attempt: &Attempt) -> BTreeMap<String, Sum> {
-    let mut sums = BTreeMap::<String, Sum>::new();
+fn sums(attempt: &Attempt) -> BTreeMap<Thing, Sum> {
+    let mut sums = BTreeMap::<Thing, Sum>::new();
     let pours = attempt.pours.iter().map(|pour| {
-        let into = pour.into.as_deref().unwrap_or("none");
-        let key = format!("poured from {} into {into}", pour.from);
-        (key, pour.t_s, Some(pour.volume_m3))
+        let thing = Thing::Poured {
+            from: pour.from.clone(),
+            into: pour.into.clone(),
+        };
+        (thing, pour.t_s, Some(pour.volume_m3))
     });
     let incidents = attempt.incidents.iter().map(|incident| {
-        // What tells it from others, whatever its kind: the fields that are no amounts.
-        let what = serde_json::to_value(&incident.what).unwrap_or_default();
-        let fields = what.as_object().into_iter().flatten();
-        let mut names: Vec<String> = fields
-            .filter(|(name, _)| *name != "kind")
-            .filter_map(|(name, value)| match value {
-                Value::String(text) => Some(text.clone()),
-                Value::Bool(yes) => Some(format!("{}{name}", if *yes { "" } else { "not " })),
-                _ => None,
-            })
-            .collect();
-        names.insert(0, incident.what.kind().into());
-        let volume = what.get("volume_m3").and_then(Value::as_f64);
-        (names.join(" "), incident.t_s, volume)
+        let (place, volume_m3) = Place::of(&incident.what);
+        let kind = incident.what.kind().to_owned();
+        (Thing::Incident { kind, place }, incident.t_s, volume_m3)
     });
-    for (key, t_s, volume_m3) in pours.chain(incidents) {
-        let sum = sums.entry(key).or_default();
+    for (thing, t_s, volume_m3) in pours.chain(incidents) {
+        let sum = sums.entry(thing).or_default();
         if let Some(volume) = volume_m3 {
             *sum.volume_m3.get_or_insert(0.0) += volume;
         }
@@ -251,7 +242,7 @@ mod tests {
             agreement(a, b)
         };
         let close = of(20.0, 22.9);
-        assert_eq!(close.beyond, [""; 0]);
+        assert!(close.beyond.is_empty(), "{close:?}");
         assert!((close.volume_m3 - 2.9e-6).abs() < 1e-12);
         assert_eq!(of(20.0, 23.5).beyond.len(), 1);
         // Less than the least that counts, and more.
@@ -294,7 +285,7 @@ mod tests {
             let [a, b] = [a, b].map(|it| attempt(Vec::new(), it));
             agreement(a, b).beyond
         };
-        assert_eq!(of(vec![hot("a", 1.0)], vec![hot("a", 1.4)]), [""; 0]);
+        assert!(of(vec![hot("a", 1.0)], vec![hot("a", 1.4)]).is_empty());
         assert_eq!(of(vec![hot("a", 1.0)], vec![hot("a", 1.6)]).len(), 1);
         assert_eq!(of(vec![hot("a", 1.0)], vec![hot("b", 1.0)]).len(), 2);
         assert_eq!(of(vec![hot("a", 1.0)], Vec::new()).len(), 1);

@@ -15,7 +15,7 @@ use super::expected::Asked;
 use super::verify::Verified;
 
 /// The version of [`Graded`]'s layout. It goes up where a field goes, or means something else.
-const LAYOUT: u32 = 2;
+const LAYOUT: u32 = 3;
 
 /// Program and version: another one may find and score otherwise.
 const PROGRAM: &str = concat!("vitriol ", env!("CARGO_PKG_VERSION"));

@@ -3,9 +3,9 @@
 use serde::Serialize;
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
 use vitriol_lesson::{Lesson, Mode, ReportTexts};
-use vitriol_run::units::count;
 
 use super::agreement::{Agreement, Tolerance};
+use super::beyond::{Beyond, Thing, Values};
 
 /// A lesson's part of a line of the table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -153,12 +153,7 @@ impl Agreement {
     ) -> Self {
         let [a, b] = [recorded, found].map(<[Verdict]>::len);
         if a != b {
-            let text = format!(
-                "the lesson was begun {} in the recording, {} found",
-                count(a as u64, "time"),
-                count(b as u64, "time")
-            );
-            self.beyond.push(text);
+            self.beyond.push(Beyond::Lessons([a, b]));
         }
         for (attempt, (recorded, found)) in (1..).zip(recorded.iter().zip(found)) {
             for (recorded, found) in recorded.lines.iter().zip(&found.lines) {
@@ -176,28 +171,33 @@ impl Agreement {
         tolerance: Tolerance,
     ) {
         let both = [recorded, found];
-        let kind = if recorded.rule { "rule" } else { "step" };
-        let mut beyond = |text: String| {
-            let id = &recorded.id;
-            self.beyond
-                .push(format!("attempt {attempt}, {kind} {id}: {text}"));
+        let mut beyond = |values: Values| {
+            let id = recorded.id.clone();
+            let thing = match recorded.rule {
+                true => Thing::Rule(id),
+                false => Thing::Step(id),
+            };
+            self.beyond.push(Beyond::Thing {
+                attempt,
+                thing,
+                values,
+            });
         };
-        let [a, b] = both.map(|it| it.became().name());
-        if a != b {
-            beyond(format!("{a} in the recording, {b} found"));
+        let became = both.map(VerdictLine::became);
+        if became[0] != became[1] {
+            beyond(Values::Outcomes(became));
             return;
         }
         let [a, b] = both.map(|it| it.points);
         // A rule's are a share of the steps'.
         if a != b && !recorded.rule {
-            let a = count(a.into(), "point");
-            beyond(format!("{a} in the recording, {b} found"));
+            beyond(Values::Points([a, b]));
             return;
         }
         if let [Some(a), Some(b)] = both.map(|it| it.evidence_s) {
             let within = (a - b).abs() <= tolerance.time_s;
             if !within {
-                beyond(format!("at {a:.2} s in the recording, at {b:.2} s found"));
+                beyond(Values::Moments([a, b]));
             }
             self.time_s = self.time_s.max((a - b).abs());
         }
@@ -207,7 +207,9 @@ impl Agreement {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::wrong::Words;
     use super::*;
+    use vitriol_lesson::Language;
 
     fn verdict(change: &dyn Fn(&mut VerdictLine)) -> Vec<Verdict> {
         let mut line = VerdictLine {
@@ -239,18 +241,24 @@ mod tests {
         };
         let later = agreement(&verdict(&|it| it.evidence_s = Some(5.15)));
         assert!(later.beyond.is_empty() && (later.time_s - 0.15).abs() < 1e-9);
+        let english = Words::of(Language::En).unwrap();
         let beyond = |change: &dyn Fn(&mut VerdictLine)| {
-            let beyond = agreement(&verdict(change)).beyond;
-            assert_eq!(beyond.len(), 1, "{beyond:?}");
-            beyond.concat()
+            let agreement = agreement(&verdict(change));
+            assert_eq!(agreement.beyond.len(), 1, "{agreement:?}");
+            agreement.text(&english)
         };
         let text = beyond(&|it| it.evidence_s = Some(5.5));
         assert_eq!(
             text,
             "attempt 1, step pour: at 5.00 s in the recording, at 5.50 s found"
         );
-        assert!(beyond(&|it| it.points = 5).ends_with("10 points in the recording, 5 found"));
+        let points = beyond(&|it| it.points = 5);
+        assert!(points.ends_with("points of step pour: 10 in the recording, 5 found"));
         assert!(beyond(&|it| it.met = false).ends_with("done in the recording, missed found"));
-        assert!(agreement(&[]).beyond[0].contains("begun 1 time in the recording, 0 times found"));
+        let never = agreement(&[]).text(&english);
+        assert!(
+            never.ends_with("begun: 1 in the recording, 0 found"),
+            "{never}"
+        );
     }
 }

@@ -158,7 +158,7 @@ impl Class {
             }
             let caps = score.caps.iter().map(|it| words.texts.capped(it));
             let lines = score.lines.iter();
-            let said = verified.map(|it| it.text()).unwrap_or_default();
+            let said = verified.map(|it| it.text(words)).unwrap_or_default();
             self.scenes.insert(attempt.scene.clone());
             self.lines.push(Line {
                 scene: attempt.scene.clone(),

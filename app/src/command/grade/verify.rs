@@ -12,6 +12,7 @@ use vitriol_xr::track::{Track, TrackSource};
 
 use super::agreement::{Agreement, Tolerance};
 use super::expected::Expected;
+use super::wrong::Words;
 use crate::cli::GradeArgs;
 use crate::command::course;
 use crate::command::plan::{Ask, ReplayPlan};
@@ -157,15 +158,15 @@ impl Verified {
     }
 
     /// In what it differs, in a few words; empty where in nothing.
-    pub fn text(&self) -> String {
+    pub fn text(&self, words: &Words) -> String {
         if self.to_the_bit {
             return String::new();
         }
-        let agreement = self.agreement.text();
+        let why = self.agreement.text(words);
         if self.differs.is_empty() {
-            format!("not to the bit on the same device: {agreement}")
+            words.grades.verified.same_device.fill(&[("why", &why)])
         } else {
-            agreement
+            why
         }
     }
 }

@@ -163,6 +163,30 @@ fn four_faults_are_four_lines() {
     );
 }
 
+/// A lesson that is no file, or no text, is refused in the language of the call.
+#[test]
+fn what_is_no_text_is_refused_in_the_language_of_the_call() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::create_dir(here.join("folder.toml")).unwrap();
+    // Latin-1, which is no UTF-8.
+    fs::write(here.join("latin.toml"), b"name = \"\xfcber\"").unwrap();
+    fs::write(here.join("long.toml"), "#".repeat((1 << 20) + 1)).unwrap();
+    for (file, says) in [
+        ("folder.toml", "es una carpeta"),
+        ("latin.toml", "no es texto en UTF-8"),
+        ("long.toml", "tiene más de 1048576 bytes"),
+    ] {
+        let told = VITRIOL.run(here, &["lesson", file, "--language", "es"]);
+        assert_eq!(told.status.code(), Some(2), "{file}");
+        let said = text(&told.stderr);
+        assert!(
+            said.starts_with(&format!("vitriol: {file}: {says}")),
+            "{said}"
+        );
+    }
+}
+
 #[test]
 fn the_track_of_the_page_is_good() {
     let folder = tempfile::tempdir().unwrap();

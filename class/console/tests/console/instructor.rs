@@ -366,6 +366,59 @@ fn a_click_counts_while_the_class_changes() {
     no_complaints(&mut tab);
 }
 
+/// A scene for all ends the lessons of students who are connected and in another scene than it. The others are not counted: the lesson's own
+/// scene begins it anew, who is in no lesson loses none, and what is not connected is not told.
+#[test]
+fn a_scene_for_all_counts_the_lessons_that_it_ends() {
+    let Some((_folder, hub, [ada, bo, cy, di], mut tab)) =
+        class_of("en", ["Ada", "Bo", "Cy", "Di"])
+    else {
+        return;
+    };
+    // All are in a lesson of the first scene, but for Bo, whose lesson is of the second, and Cy, who is in none.
+    {
+        let mut state = bo.state.lock().unwrap();
+        state.scene = Text::clipped("Water into acid");
+        state.choice = Some(1);
+    }
+    cy.state.lock().unwrap().step = None;
+    tab.go(&hub.invite().unwrap().address);
+    let card =
+        |number: u8| format!("document.querySelector('[data-student=\"{number}\"]').textContent");
+    tab.until(&format!("{}.includes('Water into acid')", card(2)));
+    tab.until(&format!("!{}.includes('Step')", card(3)));
+    // Di's program ends within the lesson.
+    tab.until(&format!("{}.includes('Step')", card(4)));
+    drop(di);
+    tab.until(&format!("{}.includes('not connected')", card(4)));
+    tab.until(&format!("{}.includes('Step')", card(4)));
+
+    let asked = |tab: &mut Tab, choice: u8| {
+        tab.eval(&format!(
+            "{{ {0}.value = '{choice}'; {0}.form.requestSubmit(); 1 }}",
+            at("all-choice")
+        ));
+        tab.until(&format!("{}.open", at("lose")));
+        let said = text(tab, "lose-lesson");
+        click(tab, "lose-not");
+        said
+    };
+    let one = "1 student is in a lesson: it ends, and none of the work in it will be graded.";
+    let two = "2 students are in a lesson: it ends for them, and none of their work in it will be graded.";
+    for (choice, ends) in [(0, one), (1, one), (2, two)] {
+        assert_eq!(asked(&mut tab, choice), ends, "scene {choice}");
+    }
+    for (student, number) in [(&ada, 1), (&bo, 2)] {
+        student.state.lock().unwrap().step = None;
+        tab.until(&format!("!{}.includes('Step')", card(number)));
+    }
+    assert_eq!(asked(&mut tab, 2), "");
+    for student in [&ada, &bo, &cy] {
+        student.nothing_else();
+    }
+    no_complaints(&mut tab);
+}
+
 #[test]
 fn a_class_shows_first_who_needs_help_and_is_directed_as_one() {
     let Some((_folder, hub, students, mut tab)) = class_of("en", ["Ada", "Bo", "Cy"]) else {

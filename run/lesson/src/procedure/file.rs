@@ -160,7 +160,7 @@ impl Lesson {
                 Ok(Some(facts)) => fits(&mut problems, (&raw.steps, &raw.rules), &facts),
                 Ok(None) => {}
                 Err(why) => {
-                    let problem = problems.texts.unread.fill(&[("why", &why)]);
+                    let problem = problems.texts.unread_scene.fill(&[("why", &why)]);
                     problems.add("scene", problem);
                 }
             }

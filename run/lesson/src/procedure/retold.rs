@@ -1,5 +1,7 @@
 //! Verdicts of a lesson from the [`Progress`] that a recording stores.
 
+use serde::{Deserialize, Serialize};
+
 use super::file::Lesson;
 use super::judge::Procedure;
 use super::mode::Mode;
@@ -78,7 +80,8 @@ impl Procedure {
 }
 
 /// Outcome of a step or a rule, in a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Became {
     /// A step was done.
     Done,

@@ -61,6 +61,7 @@ impl<'t> Source<'t> {
                 let (why, texts) = (error.message(), &source.texts);
                 match missing_quote(why) {
                     Some(_) => (at, false, texts.quote.text()),
+                    None if why == "duplicate key" => (at, true, texts.duplicate.text()),
                     None => (at, true, texts.no_toml.fill(&[("why", why)])),
                 }
             })

@@ -202,6 +202,21 @@ fn the_dear_part_pays() {
     assert!(missed <= 2 * (UNDER_WAY as u32 + 1), "{missed}");
 }
 
+/// Frames of 0.7 of a period leave 0.15 of it below the limit, which is 0.85. Where no frame is known, nothing is known to fit.
+#[test]
+fn room_is_what_the_frames_leave() {
+    let mut governor = Governor::new(ladders());
+    assert!(!governor.has_room_for(0.0, PERIOD));
+    let taken = FrameTimes {
+        times: [0.5, 0.2].map(|part| part * PERIOD),
+        period: PERIOD,
+        since: 1.0 / 90.0,
+    };
+    assert!((0..YOUNG).all(|_| governor.take(&taken, false).is_none()));
+    assert!(governor.has_room_for(0.14 * PERIOD, PERIOD));
+    assert!(!governor.has_room_for(0.16 * PERIOD, PERIOD));
+}
+
 /// A frame is missed though the device had time: less work for it would mend nothing. Where it was busy, it does.
 #[test]
 fn only_what_the_device_misses_is_its_fault() {

@@ -1,7 +1,5 @@
 //! The glass from close by, for who watches the session at the console.
 
-use glam::Vec3;
-use vitriol_render::View;
 use vitriol_run::{Carriers, Failure};
 
 use super::Session;
@@ -11,9 +9,18 @@ use crate::view::close_up_of;
 impl Session {
     /// Draws the glass from close by, behind the picture that is shown at `time` (ns), where a page shows it and the next one is due: of the
     /// same particles, which are not copied again, without panel, sign, and splashes on the goggles.
+    ///
+    /// It is no part of the frame's times by which the governor chooses what is solved and drawn, so that who looks on takes nothing from the
+    /// student. It gives way to the headset's frames by three means. It is drawn every 200 ms only while it fits beside them by its own
+    /// last time on the device, and every 3 s otherwise. While the governor has lowered something, and after a missed period, it is drawn
+    /// every 3 s as well. And the governor lowers nothing for periods that are missed right behind it.
     pub(super) fn show_close_up(&mut self, time: i64) -> Result<(), Failure> {
+        let last = self.placement.last.as_ref();
+        let period = last.map_or(0.0, |last| 1e-6 * last.info.period_ns as f64);
+        let fits = (self.pacing).has_room_for(self.counts.tally.close_up_ms, period);
         let lowered = self.pacing.effort(&self.benches.current).is_some();
-        let due = (self.instructor).close_up_is_due(time, self.counts.skipped, lowered);
+        let yields = lowered || !fits;
+        let due = (self.instructor).close_up_is_due(time, self.counts.skipped, yields);
         let Some(elapsed) = due else {
             return Ok(());
         };
@@ -27,7 +34,7 @@ impl Session {
         let sight = Sight {
             eyes: Outlook {
                 extent,
-                views: [view, upwards(&view)],
+                views: [view; 2],
             },
             inset: None,
             hands: self.gloves.each_ref().map(Vec::as_slice),
@@ -39,13 +46,9 @@ impl Session {
             shown: 1.0,
             foveation: None,
         };
-        picture.draw_again(world, &sight)?;
+        let drawn = picture.draw_again(world, &sight)?;
+        self.counts.tally.close_up(drawn);
+        self.pacing.drew_close_up();
         self.instructor.take_close_up(picture.image(), extent)
     }
-}
-
-/// The second eye of a picture that is looked at with one: it has the ceiling alone, which costs least.
-fn upwards(view: &View) -> View {
-    let eye = Vec3::from(view.stage_from_eye.translation);
-    View::look_at(eye, eye + Vec3::Y, view.fov)
 }

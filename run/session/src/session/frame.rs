@@ -36,9 +36,8 @@ impl Session {
         LockWaits::take();
         let was_building = self.is_building();
         let info = frame.poses.info;
-        if self.counts.begin(&info) {
-            self.pacing.missed = true;
-        }
+        let skipped = self.counts.begin(&info);
+        self.pacing.begins(skipped);
         if self.counts.is_first() {
             // What came before was the warm-up.
             self.pacing.report.changes = 0;

@@ -305,9 +305,9 @@ impl Instructor {
     }
 
     /// See [`View::close_up_is_due`].
-    pub fn close_up_is_due(&mut self, time: i64, missed: u64, lowered: bool) -> Option<f64> {
+    pub fn close_up_is_due(&mut self, time: i64, missed: u64, yields: bool) -> Option<f64> {
         let view = self.view.as_mut()?;
-        view.close_up_is_due(time, missed, lowered)
+        view.close_up_is_due(time, missed, yields)
     }
 
     /// Takes the first `drawn` pixels of a picture from close by, where there is a console.

@@ -15,6 +15,10 @@ use crate::rates::{Rates, Taken};
 use crate::tally::FrameLoad;
 use crate::workbench::{TAKEN_UP, Workbench};
 
+/// Frames behind a picture from close by in which a missed period is laid to that picture. Our choice: two pictures are under way at most, and
+/// the display time of the frame behind them tells of a period without one.
+const BEHIND_CLOSE_UP: u32 = 3;
+
 /// What the governor did in a session.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct GovernorReport {
@@ -52,7 +56,9 @@ pub(super) struct Pacing {
     /// Counts changes, and goes with each frame that is submitted, see [`FrameLoad::stamp`].
     pub stamp: u64,
     /// A display period went by without a frame since the governor took one in.
-    pub missed: bool,
+    missed: bool,
+    /// Frames for which that is laid to a picture from close by.
+    excused: u32,
     /// Time since the governor took in a frame, s. It takes in none without a step.
     since: f64,
     /// The last change was to more accuracy or pixels.
@@ -96,6 +102,24 @@ impl Pacing {
     /// Whether another picture is in the making, on a thread of its own.
     pub fn is_repainting(&self) -> bool {
         self.repainter.is_busy()
+    }
+
+    /// A frame begins; display periods were `skipped` before it, or not.
+    pub fn begins(&mut self, skipped: bool) {
+        self.missed |= skipped && self.excused == 0;
+        self.excused = self.excused.saturating_sub(1);
+    }
+
+    /// A picture from close by was drawn behind the last frame. Less work for the student would not mend what it makes the next ones miss.
+    pub fn drew_close_up(&mut self) {
+        self.excused = BEHIND_CLOSE_UP;
+    }
+
+    /// Whether work of that much more time (ms) fits beside that of the next frames, of which the display shows one in each period (ms).
+    /// Without a governor, or where the runtime names no period, no times are known, and missed frames alone tell.
+    pub fn has_room_for(&self, more: f64, period: f64) -> bool {
+        let governor = self.governor.as_ref().filter(|_| period > 0.0);
+        governor.is_none_or(|governor| governor.has_room_for(more, period))
     }
 
     /// Counts a frame that is shown with `setting`.
@@ -284,5 +308,28 @@ impl Pacing {
             other_filter: now.filter != asked.filter,
             rate: rate.map(|rate| rate.round() as u32),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is missed right behind a picture from close by is laid to that picture; what is missed later is not.
+    #[test]
+    fn a_picture_from_close_by_lowers_nothing() {
+        let mut pacing = Pacing::default();
+        pacing.drew_close_up();
+        for _ in 0..BEHIND_CLOSE_UP {
+            pacing.begins(true);
+            assert!(!pacing.missed);
+        }
+        pacing.begins(false);
+        assert!(!pacing.missed);
+        pacing.begins(true);
+        assert!(pacing.missed);
+        // Until the governor has taken it in.
+        pacing.begins(false);
+        assert!(pacing.missed);
     }
 }

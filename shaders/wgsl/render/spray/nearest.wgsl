@@ -25,6 +25,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (place >= flying[FLYING - 1u]) { return; }
     let number = flying[FLYING + place];
     let eye = id.y;
+    // The dispatch is as wide as the renderer; a frame may have fewer views.
+    if (eye >= frame.view_count) { return; }
     let flight = flights[number];
     if (k >= flight.drops) { return; }
     let view = &frame.views[eye];

@@ -332,6 +332,16 @@ fn no_toml_is_told_in_the_language_of_the_command() {
         let right = format!("bad.toml: Zeile {line}: {right}");
         assert!(message.starts_with(&right), "{message}");
     }
+    // What a line is, behind the parser's message.
+    let (message, _) = told("id = \"stir\"", "id = stir");
+    assert!(
+        message.contains("; eine Zeile ist ein Schlüssel"),
+        "{message}"
+    );
+    // A key that stands there twice is told where it is for the second time.
+    let (message, line) = told("id = \"stir\"", "id = \"stir\"\nid = \"again\"");
+    let right = format!("bad.toml: Zeile {}: derselbe Schlüssel", line + 1);
+    assert!(message.starts_with(&right), "{message}");
     let refused = Lesson::template("Own", "dilute", Language::De).unwrap_err();
     assert!(
         refused.to_string().starts_with("Lektion \"Own\": "),
