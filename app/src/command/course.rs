@@ -93,6 +93,7 @@ fn unopened(name: &str, error: &FileError, texts: &FaultTexts) -> String {
         FileError::Io { source, .. } => {
             (texts.unopened).fill(&[("name", name), ("why", &source.to_string())])
         }
+        other => (texts.unopened).fill(&[("name", name), ("why", &other.to_string())]),
     }
 }
 

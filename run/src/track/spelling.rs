@@ -6,7 +6,7 @@ use vitriol_sim::scene::PictureFilter;
 use vitriol_xr::Switch;
 
 use crate::action::Action;
-use crate::units::pair;
+use crate::arguments::effort;
 
 /// Keys of switches.
 pub mod key {
@@ -130,7 +130,7 @@ impl Action {
                 let mut filters = PictureFilter::ALL.into_iter();
                 return Ok(filters.find(|it| it.name() == value).map(Self::Filter));
             }
-            key::SOLVER => match pair(value) {
+            key::SOLVER => match effort(value) {
                 Ok(effort) => (Some(Self::Solver(effort)), String::new()),
                 Err(_) => (None, "substeps and iterations, such as 8x4".to_owned()),
             },
