@@ -2,6 +2,7 @@
 
 mod grades;
 mod panel;
+mod pointed;
 
 use crate::units::three_digits;
 use crate::{Action, Blame, Failure};
@@ -11,6 +12,7 @@ use vitriol_sound::Caption;
 
 pub use self::grades::{FilesTexts, GradesTexts, Otherwise, VerifiedTexts};
 pub use self::panel::{AcidOnTexts, EffortTexts, PanelTexts, SpiltTexts};
+pub use self::pointed::PointedTexts;
 
 /// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,6 +27,8 @@ pub struct Texts {
     pub summary: SummaryTexts,
     /// Texts of the panel itself.
     pub panel: PanelTexts,
+    /// Texts of the label at a desk's pointer.
+    pub pointed: PointedTexts,
     /// Texts of a class's grades.
     pub grades: GradesTexts,
     /// What of a recording is not whole.

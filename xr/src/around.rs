@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::Pose;
+use crate::{Pose, Side};
 
 /// Bodies at the bench, for a headset that puts hands by a pointer. Lengths in real metres, poses in the headset's stage.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Around {
     pub table: f32,
     /// The flasks in the scene's order, and the tools behind them.
     pub things: Vec<Thing>,
-    /// By hand ([`Side`](crate::Side) is the index), the index in [`Around::things`] of what it holds.
+    /// By hand ([`Side`] is the index), the index in [`Around::things`] of what it holds.
     pub holds: [Option<usize>; 2],
     /// By hand, whether it wears a glove.
     pub gloves: [bool; 2],
@@ -73,6 +73,17 @@ pub enum Kind {
     Gloves,
     /// The sash of a fume hood: it goes up and down only.
     Sash,
+}
+
+/// What a pointer is at, where a press does something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pointed {
+    /// The thing of that index in [`Around::things`], which a hand would take.
+    Thing(usize),
+    /// The glove on that hand, which the other one would pull off.
+    Glove(Side),
+    /// The panel.
+    Panel,
 }
 
 /// A line to be drawn with the picture, e.g. where a pour would fall. In the headset's stage.

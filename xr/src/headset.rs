@@ -8,7 +8,7 @@
 use glam::Vec3;
 use vitriol_gpu::{Gpu, GpuError, Image};
 
-use crate::{Around, Fov, Line, Pose, PoseFrame, Side};
+use crate::{Around, Fov, Line, Pointed, Pose, PoseFrame, Side};
 
 /// A headset's frames, images and hands.
 pub trait Headset {
@@ -74,6 +74,11 @@ pub trait Headset {
     /// Lines that help a pointer, drawn with the picture of this frame.
     fn lines(&self) -> Vec<Line> {
         Vec::new()
+    }
+
+    /// What a pointer is at in this frame, while its hand is free; `None` of a headset, whose hands point by themselves.
+    fn pointed(&self) -> Option<Pointed> {
+        None
     }
 
     /// Ends the frame; without `shown` nothing is shown.

@@ -24,7 +24,7 @@ mod session;
 mod source;
 pub mod track;
 
-pub use around::{Around, Kind, Line, Thing};
+pub use around::{Around, Kind, Line, Pointed, Thing};
 #[cfg(feature = "openxr")]
 pub use entry::quiet_loader;
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};

@@ -42,6 +42,7 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
         size: args.size,
         full_screen: args.full_screen,
         fov: args.fov,
+        scale: args.scale,
         toggles: shared.grip == Grip::Toggle,
     };
     let (desk, window) = desk::open(&gpu, spec, decisions.clone())?;

@@ -100,6 +100,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--size",
                 "--full-screen",
                 "--fov",
+                "--scale",
                 "--device",
             ],
         ),

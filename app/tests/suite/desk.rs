@@ -5,6 +5,8 @@
 mod common;
 mod drag;
 mod hold;
+mod label;
+mod layer;
 mod loss;
 mod panel;
 mod pour;

@@ -15,7 +15,7 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 use vitriol_run::Failure;
 use vitriol_xr::{
-    Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Line, Pose, PoseFrame,
+    Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Line, Pointed, Pose, PoseFrame,
     SessionState, Shown, Targets, Turn, View,
 };
 
@@ -40,9 +40,15 @@ pub struct DeskSpec {
     pub full_screen: bool,
     /// Angle between the upper and the lower side of the first view, degrees, as [`FOVS`] allow.
     pub fov: f32,
+    /// Height of text over the picture, times the usual, as [`SCALES`] allow.
+    pub scale: f32,
     /// Whether one click takes and the next puts down; else a hand holds while the button is down.
     pub toggles: bool,
 }
+
+/// Least and greatest height of text over the picture, times the usual. Our choice: 9 pixels in a window of 800 × 500, and a strip of two
+/// lines that covers less than a quarter of it.
+pub const SCALES: [f32; 2] = [0.5, 2.0];
 
 /// A window with mouse and keyboard as a headset with hands.
 pub struct Desk {
@@ -96,6 +102,7 @@ pub fn open(
     let opening = Opening {
         size: spec.size,
         full_screen: spec.full_screen,
+        scale: spec.scale,
         input,
     };
     let (window, display) = Window::of_desk(opening, decisions).map_err(|failure| {
@@ -287,6 +294,10 @@ impl Headset for Desk {
 
     fn lines(&self) -> Vec<Line> {
         self.hands.lines()
+    }
+
+    fn pointed(&self) -> Option<Pointed> {
+        self.hands.pointed()
     }
 
     fn end(&mut self, _shown: Option<&Shown>) -> Result<(), HeadsetError> {

@@ -28,6 +28,7 @@ mod painter;
 pub mod panel;
 pub mod picture;
 pub mod placement;
+mod projection;
 pub mod rates;
 mod reopening;
 pub mod session;

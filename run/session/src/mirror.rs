@@ -4,6 +4,9 @@
 //! screen may hang on another. A lost device is made anew, and the window stays. A swapchain that waits for the screen's
 //! refresh would hold up the headset's queue.
 
+mod label;
+mod letters;
+mod over;
 mod shrink;
 mod strip;
 mod window;
@@ -13,7 +16,8 @@ use vitriol_run::Failure;
 use vitriol_run::texts::PanelTexts;
 use vitriol_shaders::Library;
 
-pub use self::shrink::{LONGEST, Shrink, Shrunk, fit};
+pub(crate) use self::label::Said as Label;
+pub use self::shrink::{LONGEST, Layer, Shrink, Shrunk, fit};
 use self::strip::Said;
 use self::window::Say;
 pub(crate) use self::window::{Display, Extent, Opening};
@@ -26,8 +30,9 @@ pub struct Mirror {
     window: Window,
     shrink: Shrink,
     title: String,
-    /// What the strip of a desk's window says.
+    /// What the strip of a desk's window says, and its label.
     said: Said,
+    label: Option<Label>,
 }
 
 impl Mirror {
@@ -46,6 +51,7 @@ impl Mirror {
             window,
             title: String::new(),
             said: Said::default(),
+            label: None,
         })
     }
 
@@ -59,11 +65,16 @@ impl Mirror {
     }
 
     /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns, the runtime's clock),
-    /// if it is time for one. To be called between frames, behind the picture.
+    /// if it is time for one; with the panel under it where the window is to sample that. To be called between frames, behind the picture.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
+    pub fn take(
+        &mut self,
+        picture: (&Image, Option<Layer<'_>>),
+        drawn: [u32; 2],
+        time: i64,
+    ) -> Result<(), Failure> {
         let Some(extent) = self.window.extent() else {
             return Ok(());
         };
@@ -80,6 +91,14 @@ impl Mirror {
             self.window.say(Say::Picture(shrunk));
         }
         Ok(())
+    }
+
+    /// Names in a desk's window what the pointer is at, or nothing.
+    pub(crate) fn label(&mut self, label: Option<Label>) {
+        if self.label != label {
+            self.window.say(Say::Label(label.clone()));
+            self.label = label;
+        }
     }
 
     /// Puts scene and state into the window's title, and at a desk into the window's strip; `instead` is why the headset shows nothing, if

@@ -3,16 +3,18 @@
 //! It is drawn in the scene, and shown by a headset in a layer of its own under the picture (`xr/src/session/layers.rs`). A hand
 //! that points at it has a ray.
 
+mod aimed;
 mod colours;
 #[cfg(test)]
 mod fits;
 mod lesson;
 mod view;
 
+pub(crate) use self::aimed::Aimed;
 pub(crate) use self::colours::{SAID, WARNING, WHITE};
 pub(crate) use self::view::style;
 
-use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
+use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2};
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, Image, Recorder};
 use vitriol_render::{Bone, Finish};
@@ -60,6 +62,8 @@ pub struct Panel {
     pointer: Option<Pos2>,
     /// The hand that points, and from where to where in the scene's stage.
     ray: Option<(Side, [Vec3; 2])>,
+    /// The button there.
+    aimed: Option<Aimed>,
     pressed: bool,
     /// Whether the pointing hand has had its trigger released while it pointed here.
     armed: bool,
@@ -101,6 +105,7 @@ impl Panel {
             kept_back: true,
             pointer: None,
             ray: None,
+            aimed: None,
             pressed: false,
             armed: false,
             holds: None,
@@ -156,6 +161,7 @@ impl Panel {
         }
         let seen = self.show(&shown, events);
         self.shown = Some(shown);
+        self.aimed = seen.aimed;
         match seen.held.filter(|_| self.pressed) {
             Some(decision) if self.holds.as_ref().is_none_or(|(of, _)| *of != decision) => {
                 let mut hold = Hold::default();
@@ -201,6 +207,14 @@ impl Panel {
             stain: 0.0,
         };
         self.ray.map(|(side, ends)| (side, bone(ends)))
+    }
+
+    /// The button that a hand points at, and its corners in the scene's stage.
+    pub(crate) fn aimed(&self) -> Option<(&Aimed, [Vec3; 4])> {
+        let aimed = self.aimed.as_ref()?;
+        let Rect { min, max } = aimed.bounds;
+        let corners = [min, pos2(max.x, min.y), pos2(min.x, max.y), max];
+        Some((aimed, corners.map(place)))
     }
 
     fn show(&mut self, shown: &Shown, events: Vec<Event>) -> view::Seen {
@@ -271,6 +285,14 @@ pub(crate) fn met(
     (at.x.abs() < 0.5 * width && at.y.abs() < 0.5 * height).then_some(at)
 }
 
+/// Where a pixel of the panel is in the scene's stage.
+fn place(at: Pos2) -> Vec3 {
+    let metres = WIDTH / PANEL[0] as f32;
+    let across = at.x - 0.5 * PANEL[0] as f32;
+    let up = 0.5 * PANEL[1] as f32 - at.y;
+    scene_from_panel().transform_point(metres * Vec3::new(across, up, 0.0))
+}
+
 /// The pixel that a ray along −Z meets, if it meets the panel's face, and where in the scene's stage that is.
 fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<(Pos2, Vec3)> {
     let pixels = width as f32 / WIDTH;
@@ -303,6 +325,9 @@ mod tests {
             assert!((hit - target).length() < 1e-4, "{hit}");
             assert!((at - Pos2::new(x, y)).length() < 0.1, "{at:?}");
         }
+        // Back from a pixel to the room.
+        let (at, hit) = pointed_at(&Pose::new(Vec3::Y, Quat::IDENTITY), PANEL).unwrap();
+        assert!((place(at) - hit).length() < 1e-5, "{hit}");
         // Past its edge, away from it, and from behind.
         let aim = |at: Vec3, turn| pointed_at(&Pose::new(at, turn), extent);
         assert_eq!(aim(Vec3::new(0.5, 1.16, 0.0), Quat::IDENTITY), None);

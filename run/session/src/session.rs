@@ -13,6 +13,7 @@ mod guide;
 mod hints;
 mod instructor;
 mod interrupted;
+mod label;
 mod losses;
 mod metadata;
 mod pacing;

@@ -65,7 +65,7 @@ impl View {
             return Ok(());
         }
         self.shrink
-            .begin(picture, drawn, [VIEW_SIDE; 2], (time, EVERY))
+            .begin((picture, None), drawn, [VIEW_SIDE; 2], (time, EVERY))
     }
 
     /// Whether a picture from close by is to be drawn behind the one that is shown at `time` (ns), where that many display periods were
@@ -83,7 +83,8 @@ impl View {
     /// An error of the device.
     pub fn take_close_up(&mut self, picture: &Image, drawn: [u32; 2]) -> Result<(), Failure> {
         // `Turns` paces it.
-        self.close_up.begin(picture, drawn, CLOSE_UP, (0, 0))
+        self.close_up
+            .begin((picture, None), drawn, CLOSE_UP, (0, 0))
     }
 
     /// Hands over what the device is done with.

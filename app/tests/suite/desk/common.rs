@@ -16,7 +16,8 @@ use vitriol_tests::gpu::{self, Watched};
 use vitriol_tests::screen::{self, Button, Screen, Window, key};
 use vitriol_xr::track::Track;
 use vitriol_xr::{
-    Around, Headset, HeadsetError, Inset, Line, PoseFrame, Shown, Side, Targets, Turn, View,
+    Around, Headset, HeadsetError, Inset, Line, Pointed, PoseFrame, Shown, Side, Targets, Turn,
+    View,
 };
 
 /// Width and height of the window when it opens, pixels: few, so that a software driver is fast.
@@ -330,6 +331,9 @@ impl Headset for Used {
     fn lines(&self) -> Vec<Line> {
         self.desk.lines()
     }
+    fn pointed(&self) -> Option<Pointed> {
+        self.desk.pointed()
+    }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.lines = self.desk.lines();
         if let Some(shown) = shown {
@@ -384,6 +388,7 @@ pub fn spec() -> DeskSpec {
         size: SIZE,
         full_screen: false,
         fov: FOV,
+        scale: 1.0,
         toggles: false,
     }
 }

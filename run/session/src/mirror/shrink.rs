@@ -1,10 +1,12 @@
-//! The device's half of the mirror, and of the console's view: shrinks the left eye's picture and copies it to where another
-//! thread reads it. Nothing here waits.
+//! The device's half of the mirror, and of the console's view: brings the left eye's picture to the window's size and copies it to where
+//! another thread reads it. Nothing here waits.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use vitriol_gpu::{Buffer, ComputePipeline, CopyRegion, Gpu, GpuError, Image, QueueKind, Ticket};
+use vitriol_gpu::{
+    Buffer, ComputePipeline, CopyRegion, Gpu, GpuError, Image, QueueKind, Sampler, Ticket,
+};
 use vitriol_live::RawPicture;
 use vitriol_run::{Blame, Failure};
 use vitriol_shaders::{Library, layout, mirror};
@@ -15,6 +17,16 @@ pub const LONGEST: u32 = 1080;
 
 /// Buffers that a picture can be in: one is filled by the device, one is copied by the window's thread, one is spare.
 const SLOTS: usize = 3;
+
+/// The panel as a screen's window shows it where the picture is coarser than the window: sampled once, as a headset's runtime does with a
+/// layer under the picture. The picture's alpha says where it is seen, so what stands before it hides it.
+#[derive(Clone, Copy)]
+pub struct Layer<'a> {
+    /// Its image.
+    pub image: &'a Image,
+    /// From a place in the picture to the panel's, see [`layout::MirrorDraw`].
+    pub panel_from_picture: [[f32; 4]; 4],
+}
 
 /// A picture as a window takes it.
 pub struct Shrunk {
@@ -45,6 +57,7 @@ impl From<Shrunk> for RawPicture {
 pub struct Shrink {
     gpu: Gpu,
     pipeline: ComputePipeline,
+    between: Sampler,
     /// The largest picture.
     most: [u32; 2],
     shrunk: Buffer,
@@ -68,6 +81,7 @@ impl Shrink {
         Ok(Self {
             gpu: gpu.clone(),
             pipeline: ComputePipeline::new(gpu, &compiled).other()?,
+            between: Sampler::linear(gpu).other()?,
             most,
             shrunk: Buffer::storage(gpu, "mirror", bytes).other()?,
             slots: [slot()?.into(), slot()?.into(), slot()?.into()],
@@ -77,14 +91,14 @@ impl Shrink {
     }
 
     /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size, behind what was
-    /// submitted before. The picture is shown at `time`, and the least interval is `every` (display time, ns). Does nothing
-    /// within that interval, or where no slot is free.
+    /// submitted before. It is scaled up only where there is a `layer` that is then sharper. The picture is shown at `time`, and the least
+    /// interval is `every` (display time, ns). Does nothing within that interval, or where no slot is free.
     ///
     /// # Errors
     /// An error of the device.
     pub fn begin(
         &mut self,
-        picture: &Image,
+        (picture, layer): (&Image, Option<Layer<'_>>),
         drawn: [u32; 2],
         window: [u32; 2],
         (time, every): (i64, i64),
@@ -100,13 +114,28 @@ impl Shrink {
         else {
             return Ok(());
         };
-        let most = [0, 1].map(|side| self.most[side].min(drawn[side]).min(window[side]));
+        let most = [0, 1].map(|side| {
+            let enough = if layer.is_some() {
+                u32::MAX
+            } else {
+                drawn[side]
+            };
+            self.most[side].min(enough).min(window[side])
+        });
         let extent = fit(drawn, most);
+        // In a picture of its size the panel is as sharp already.
+        let layer = layer.filter(|_| extent != drawn);
         let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
         rec.pass(&self.pipeline)
             .sampled("picture", picture)
+            .sampled("panel", layer.map_or(picture, |it| it.image))
+            .sampler("between", &self.between)
             .write("shrunk", &self.shrunk)
-            .constants(&layout::MirrorDraw { drawn, extent })
+            .constants(&layout::MirrorDraw {
+                drawn,
+                extent,
+                panel_from_picture: layer.map_or([[0.0; 4]; 4], |it| it.panel_from_picture),
+            })
             .invocations_2d(extent)
             .other()?;
         let all = CopyRegion {

@@ -1,19 +1,13 @@
 //! The strip at the upper edge of a desk's window: the lesson's step, a pause and the instructor's message. The panel that shows them
 //! too stands in the scene, where it may be small or out of view.
 
-use std::sync::Arc;
-
-use egui::text::{Galley, LayoutJob};
-use egui::{Color32, ColorImage, Context, FontId, Pos2, RawInput, pos2};
+use egui::pos2;
 use vitriol_run::texts::PanelTexts;
 
+use super::letters::{Block, Letters, packed, write};
 use crate::info::{Info, Mark};
-use crate::panel::{SAID, WARNING, WHITE, style};
+use crate::panel::{SAID, WARNING, WHITE};
 
-/// Height of its text as a share of the window's height and of its width, and the least height, pixels. Our choice: 17 pixels in a window
-/// of 800 × 500, 26 in one of 1366 × 768, so that some ninety letters have room in a line.
-const SHARES: [f32; 2] = [0.0215, 0.034];
-const LEAST: f32 = 12.0;
 /// Lines of text at most, so that little of the bench is covered.
 const LINES: usize = 2;
 /// Between two texts of a line.
@@ -64,68 +58,43 @@ impl Said {
 }
 
 /// The strip, which is painted anew only where its text or the window's size has changed.
+#[derive(Default)]
 pub struct Strip {
-    context: Context,
     said: Said,
-    /// Its rows, 0x00RRGGBB, and the size of the window that they were painted for.
+    /// Its rows, 0x00RRGGBB, and the window's width and height and the text's height that they were painted for.
     pixels: Vec<u32>,
-    of: Option<[u32; 2]>,
+    of: Option<([u32; 2], f32)>,
 }
 
 impl Strip {
-    /// One that says nothing yet.
-    pub fn new() -> Self {
-        let context = Context::default();
-        style(&context);
-        Self {
-            context,
-            said: Said::default(),
-            pixels: Vec::new(),
-            of: None,
-        }
-    }
-
     /// Says that from now on.
     pub fn say(&mut self, said: Said) {
         self.said = said;
         self.of = None;
     }
 
-    /// The uppermost rows of a window of that size, 0x00RRGGBB; none where nothing is said.
-    pub fn pixels(&mut self, window: [u32; 2]) -> &[u32] {
-        if self.of != Some(window) {
-            self.pixels = painted(&self.context, &self.said, window);
-            self.of = Some(window);
+    /// The uppermost rows of a window of that size, with text of that height, 0x00RRGGBB; none where nothing is said.
+    pub fn pixels(&mut self, letters: &Letters, window: [u32; 2], size: f32) -> &[u32] {
+        if self.of != Some((window, size)) {
+            self.pixels = painted(letters, &self.said, window, size);
+            self.of = Some((window, size));
         }
         &self.pixels
     }
 }
 
-/// A text, its colour, and where its upper left corner is, pixels.
-type Block = (Arc<Galley>, Color32, Pos2);
-
-fn painted(context: &Context, said: &Said, window: [u32; 2]) -> Vec<u32> {
+fn painted(letters: &Letters, said: &Said, window: [u32; 2], size: f32) -> Vec<u32> {
     if said.is_empty() {
         return Vec::new();
     }
-    let sides = window.map(|side| side as f32);
-    let size = (SHARES[0] * sides[0]).min(SHARES[1] * sides[1]);
-    let size = size.max(LEAST).round();
-    let font = FontId::proportional(size);
-    // egui makes room for glyphs at the beginning of a frame alone.
-    let _ = context.run(RawInput::default(), |_| {});
-    let (blocks, image) = context.fonts_mut(|fonts| {
-        let mut lay = |text: &str, colour: Color32, room: f32, rows: usize| {
-            let mut job = LayoutJob::simple(text.to_owned(), font.clone(), colour, room);
-            job.wrap.max_rows = rows;
-            fonts.layout_job(job)
-        };
+    let wide = window[0] as f32;
+    let (blocks, image) = letters.lay(size, |lay| {
         let [margin, above] = [0.5 * size, 0.25 * size].map(f32::round);
-        let mut room = sides[0] - 2.0 * margin;
+        let mut room = wide - 2.0 * margin;
         let mut blocks: Vec<Block> = Vec::new();
         if !said.pouring.is_empty() {
             let laid = lay(&said.pouring, WHITE, f32::INFINITY, 1);
-            let left = (sides[0] - margin - laid.size().x).round();
+            let left = (wide - margin - laid.size().x).round();
             room -= laid.size().x + 2.0 * margin;
             blocks.push((laid, WHITE, pos2(left, above)));
         }
@@ -139,7 +108,7 @@ fn painted(context: &Context, said: &Said, window: [u32; 2]) -> Vec<u32> {
                 upper += height;
             }
         }
-        (blocks, fonts.image())
+        blocks
     });
     let below = blocks.iter().map(|(laid, _, at)| at.y + laid.size().y);
     let rows = (below.fold(0.0, f32::max) + 0.25 * size).round() as usize;
@@ -158,42 +127,11 @@ fn painted(context: &Context, said: &Said, window: [u32; 2]) -> Vec<u32> {
     pixels
 }
 
-/// Writes a text into rows of `width` pixels; `image` has the font's glyphs. A point of the layout is a pixel.
-fn write(pixels: &mut [u32], width: usize, image: &ColorImage, (laid, colour, at): &Block) {
-    for row in &laid.rows {
-        for glyph in &row.glyphs {
-            let part = glyph.uv_rect;
-            let offset = (glyph.pos + part.offset).round();
-            let corner = *at + row.pos.to_vec2() + offset.to_vec2();
-            for v in part.min[1]..part.max[1] {
-                for u in part.min[0]..part.max[0] {
-                    let x = corner.x + f32::from(u - part.min[0]);
-                    let y = corner.y + f32::from(v - part.min[1]);
-                    if x < 0.0 || y < 0.0 || x as usize >= width {
-                        continue;
-                    }
-                    let texel = image.size[0] * usize::from(v) + usize::from(u);
-                    let cover = image.pixels.get(texel).map_or(0, |texel| texel.a());
-                    if cover > 0
-                        && let Some(pixel) = pixels.get_mut(width * y as usize + x as usize)
-                    {
-                        let share = f32::from(cover) / 255.0;
-                        *pixel = packed(SAID.lerp_to_gamma(*colour, share));
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn packed(colour: Color32) -> u32 {
-    u32::from_be_bytes([0, colour.r(), colour.g(), colour.b()])
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::desk::SCALES;
     use crate::info::{Pouring, Shown};
     use vitriol_lesson::Language;
     use vitriol_run::texts::Texts;
@@ -202,9 +140,10 @@ mod tests {
     const WINDOWS: [[u32; 2]; 2] = [[800, 500], [1366, 768]];
 
     fn pixels(info: &Info, words: &PanelTexts, window: [u32; 2]) -> Vec<u32> {
-        let mut strip = Strip::new();
+        let (letters, mut strip) = (Letters::new(1.0), Strip::default());
         strip.say(Said::of(info, words));
-        strip.pixels(window).to_vec()
+        let size = letters.size(window, 1.0);
+        strip.pixels(&letters, window, size).to_vec()
     }
 
     fn with_step(text: &str) -> Info {
@@ -249,6 +188,23 @@ mod tests {
                 assert!(short.len() < long.len() && long.len().is_multiple_of(width));
                 assert!(8 * long.len() < width * height, "{text} {window:?}");
             }
+        }
+    }
+
+    /// However large a user wants text, the strip covers less than a quarter of the window.
+    #[test]
+    fn a_larger_text_leaves_the_bench_free() {
+        let words = Texts::english().unwrap().panel;
+        let said = Said::of(&with_step(&"Pour the acid ".repeat(40)), &words);
+        for [width, height] in WINDOWS {
+            let [least, usual, most] = [SCALES[0], 1.0, SCALES[1]].map(|scale| {
+                let (letters, mut strip) = (Letters::new(scale), Strip::default());
+                strip.say(said.clone());
+                let size = letters.size([width, height], 1.0);
+                strip.pixels(&letters, [width, height], size).len()
+            });
+            assert!(least < usual && usual < most);
+            assert!(4 * most < (width * height) as usize, "{most}");
         }
     }
 

@@ -22,9 +22,11 @@ use winit::keyboard::Key;
 use winit::window::{Fullscreen, Window as Frame, WindowId};
 
 use self::keys::{Listener, Outcome};
-use self::lay::lay;
+use self::lay::{lay, onto};
+use super::label::Said as Label;
+use super::over::Over;
 use super::shrink::{LONGEST, Shrunk, fit};
-use super::strip::{Said, Strip};
+use super::strip::Said;
 use crate::decision::Decision;
 use crate::desk::input::Input;
 use crate::menu;
@@ -44,6 +46,8 @@ pub enum Say {
     Picture(Shrunk),
     /// What the strip at its upper edge says from now on.
     Strip(Said),
+    /// What the label at the pointer says from now on, or nothing.
+    Label(Option<Label>),
     /// That the session is over.
     End,
 }
@@ -67,6 +71,8 @@ pub(crate) struct Opening {
     pub size: [u32; 2],
     /// Whether it fills the screen.
     pub full_screen: bool,
+    /// Height of text over its picture, times the usual.
+    pub scale: f32,
     /// Where mouse and keyboard are sent. It is disconnected once the window is closed.
     pub input: Sender<Input>,
 }
@@ -131,6 +137,7 @@ impl Window {
         let (opened, display) = channel();
         let asked = Asked {
             full_screen: opening.full_screen,
+            scale: opening.scale,
             listener: Some(Listener::new(opening.input)),
             opened: Some(opened),
             ..Asked::new(opening.size, decisions)
@@ -173,7 +180,8 @@ impl Window {
                     asked,
                     frame: None,
                     shown: None,
-                    strip: None,
+                    over: None,
+                    pointer: None,
                 };
                 if let Err(error) = events.run_app(&mut face) {
                     tracing::warn!("the window is gone: {error}");
@@ -261,6 +269,8 @@ struct Asked {
     decisions: Sender<Decision>,
     /// Whether it opens over all of the screen.
     full_screen: bool,
+    /// Height of text over its picture, times the usual.
+    scale: f32,
     /// Takes mouse and keys, of a desk's window.
     listener: Option<Listener>,
     /// Where the display is sent once it is open.
@@ -276,6 +286,7 @@ impl Asked {
             extent,
             decisions,
             full_screen: false,
+            scale: 1.0,
             listener: None,
             opened: None,
         }
@@ -288,8 +299,10 @@ struct Face {
     frame: Option<(Rc<Frame>, Pixels)>,
     /// The last picture, 0x00RRGGBB row by row, and its width and height.
     shown: Option<(Vec<u32>, [u32; 2])>,
-    /// The strip over it, once it said something.
-    strip: Option<Strip>,
+    /// Strip and label over it, once one of them said something.
+    over: Option<Over>,
+    /// Where the pointer is in it, pixels.
+    pointer: Option<[f32; 2]>,
 }
 
 /// Nothing, or an error of screen or device.
@@ -337,6 +350,10 @@ impl Face {
             // The first picture will fill the window.
             let extent = self.shown.as_ref().map_or(size, |(_, extent)| *extent);
             match event {
+                WindowEvent::CursorMoved { position, .. } => {
+                    self.pointer = Some([position.x, position.y].map(|side| side as f32));
+                }
+                WindowEvent::CursorLeft { .. } => self.pointer = None,
                 // What nobody sees need not be drawn.
                 WindowEvent::Occluded(true) => asked.extent.set([0, 0]),
                 WindowEvent::Occluded(false) | WindowEvent::Focused(true) => {
@@ -374,14 +391,15 @@ impl Face {
         surface.resize(across, down)?;
         let mut pixels = surface.buffer_mut()?;
         pixels.fill(0);
+        let window = [width, height];
         if let Some((picture, extent)) = &self.shown {
-            lay(&mut pixels, [width, height], picture, *extent);
+            lay(&mut pixels, window, picture, *extent);
         }
-        if let Some(strip) = &mut self.strip {
-            let rows = strip.pixels([width, height]);
-            for (pixel, painted) in pixels.iter_mut().zip(rows) {
-                *pixel = *painted;
-            }
+        if let Some(over) = &mut self.over {
+            let extent = self.shown.as_ref().map_or(window, |(_, extent)| *extent);
+            let density = frame.scale_factor() as f32;
+            let place = |at| onto(window, extent, at);
+            over.draw(&mut pixels, (window, density), place, self.pointer);
         }
         frame.pre_present_notify();
         pixels.present()?;
@@ -399,7 +417,13 @@ impl Face {
                 frame.request_redraw();
             }
             Say::Strip(said) => {
-                self.strip.get_or_insert_with(Strip::new).say(said);
+                let over = || Over::new(self.asked.scale);
+                self.over.get_or_insert_with(over).strip(said);
+                frame.request_redraw();
+            }
+            Say::Label(said) => {
+                let over = || Over::new(self.asked.scale);
+                self.over.get_or_insert_with(over).label(said);
                 frame.request_redraw();
             }
             Say::End => {}

@@ -3,7 +3,9 @@
 use egui::{Align, Button, Color32, Label, Layout, RichText, Ui, vec2};
 use vitriol_run::Action;
 
+use super::aimed::Aimed;
 use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
+use super::view::Seen;
 use crate::decision::Decision;
 use crate::info::{Mark, Shown};
 use crate::menu;
@@ -12,8 +14,8 @@ use crate::menu;
 const BUTTON: f32 = 46.0;
 
 /// What is to be done, its steps where they are listed, why something failed or else how to do it, and the answers to its question.
-/// Returns the answer that was pressed.
-pub fn told(ui: &mut Ui, shown: &Shown) -> Option<Decision> {
+/// `seen` takes in which answer is pointed at and pressed.
+pub fn told(ui: &mut Ui, shown: &Shown, seen: &mut Seen) {
     ui.label(RichText::new(&shown.step).color(WHITE));
     for (mark, text) in &shown.steps {
         ui.horizontal_top(|ui| step(ui, *mark, text));
@@ -23,15 +25,15 @@ pub fn told(ui: &mut Ui, shown: &Shown) -> Option<Decision> {
     for (line, colour) in note.chain(more.map(|line| (line, WARNING))) {
         ui.label(RichText::new(line).color(colour));
     }
-    let mut pressed = None;
     for (answer, text, key) in answers(shown) {
         let size = vec2(ui.available_width(), BUTTON);
-        let button = Button::new(label(key, text)).min_size(size);
-        if ui.add(button).clicked() {
-            pressed = Some(Decision::Act(Action::Answer { step: None, answer }));
+        let text = label(key, text);
+        let button = ui.add(Button::new(text.as_str()).min_size(size));
+        seen.aimed = Aimed::at(&button, &text, false).or(seen.aimed.take());
+        if button.clicked() {
+            seen.clicked = Some(Decision::Act(Action::Answer { step: None, answer }));
         }
     }
-    pressed
 }
 
 /// The answers that can be given: number, text and key.

@@ -11,6 +11,7 @@ use vitriol_lesson::Tone;
 use vitriol_render::tints;
 use vitriol_run::Action;
 
+use super::aimed::Aimed;
 use super::colours::{CHOSEN, COLD, FAINT, GOOD, HOT, RECORDING, SAID, TEXT, WARNING, WHITE};
 use super::lesson;
 use crate::decision::Decision;
@@ -65,6 +66,8 @@ pub struct Seen {
     pub clicked: Option<Decision>,
     /// What is being held that takes a hold.
     pub held: Option<Decision>,
+    /// The button that it points at.
+    pub aimed: Option<Aimed>,
 }
 
 /// Lays the panel out; `ring` is how far a button that is held has come, 0 to 1.
@@ -124,7 +127,7 @@ fn told(context: &Context, info: &Info, seen: &mut Seen) {
     let strip = TopBottomPanel::top("told").frame(frame);
     strip.show_separator_line(false).show(context, |ui| {
         if let Some(shown) = shown {
-            seen.clicked = lesson::told(ui, shown);
+            lesson::told(ui, shown, seen);
         }
         for line in said {
             ui.label(RichText::new(line).color(WHITE));
@@ -199,7 +202,9 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     let size = vec2(0.5 * ui.available_width(), LOW);
     let key = menu::SUMMARY.to_ascii_uppercase();
     let text = format!("{key}   {}", happened.back);
-    if ui.add(Button::new(text).min_size(size)).clicked() {
+    let button = ui.add(Button::new(text.as_str()).min_size(size));
+    seen.aimed = Aimed::at(&button, &text, false);
+    if button.clicked() {
         seen.clicked = Some(Decision::Summary);
     }
 }
@@ -335,8 +340,10 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     let mut button = |ui: &mut Ui, line: (String, f32), chosen: bool, decision: Decision| {
         let (text, height) = line;
         let size = vec2(ui.available_width(), height);
-        let button = Button::new(text).min_size(size).selected(chosen);
-        let answer = ui.add(button);
+        let button = Button::new(text.as_str());
+        let answer = ui.add(button.min_size(size).selected(chosen));
+        let aimed = Aimed::at(&answer, &text, decision.loses_work());
+        seen.aimed = aimed.or(seen.aimed.take());
         if decision.loses_work() {
             if answer.is_pointer_button_down_on() && answer.contains_pointer() {
                 seen.held = Some(decision);

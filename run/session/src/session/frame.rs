@@ -17,8 +17,10 @@ use crate::decision::Decision;
 use crate::haptics;
 use crate::inputs::sound;
 use crate::ladder::Setting;
+use crate::mirror::Layer;
 use crate::panel;
 use crate::picture::{self, Outlook, Sight, eye};
+use crate::projection::panel_from_picture;
 use crate::sign::{Drawn, Sign};
 use crate::tally::Submitted;
 use crate::workbench::TAKEN_UP;
@@ -98,7 +100,13 @@ impl Session {
         // 9. The mirror's part, behind the picture, and what may wait for the device.
         if let (Some(mirror), Some(shown)) = (&mut self.mirror, &shown) {
             let picture = self.benches.current.picture.image();
-            mirror.take(picture, shown.extent, info.xr_time)?;
+            // A screen has no runtime that shows the panel's layer.
+            let layer = shown.panel.filter(|_| headset.eyes() == 1);
+            let layer = layer.map(|(pose, _)| Layer {
+                image: &self.panel.image,
+                panel_from_picture: panel_from_picture(&shown.views[0], (pose, panel::SIZE)),
+            });
+            mirror.take((picture, layer), shown.extent, info.xr_time)?;
         }
         if let Some(shown) = &shown {
             self.show_instructor(shown, info.xr_time)?;
@@ -123,7 +131,11 @@ impl Session {
         }
         // 11. Where the bodies are, for who points at them; and what the lenses hide.
         if self.pointer {
-            headset.around(self.bench_around());
+            let around = self.bench_around();
+            if let Some(shown) = &shown {
+                self.show_label(headset.pointed(), &around, &shown.views[0]);
+            }
+            headset.around(around);
         }
         self.benches.take_mask(headset, &no_frame)
     }

@@ -58,6 +58,11 @@ impl Readings {
         &self.names
     }
 
+    /// The liquid's volume in a flask at the last reading, m³ of the scene; `None` before the first one.
+    pub fn volume(&self, flask: usize) -> Option<f64> {
+        self.last.get(flask).map(|held| held.volume)
+    }
+
     /// The panel's lines for the flasks of the bench's scene. One that hangs upside down, a funnel, has none: it holds nothing
     /// for long.
     pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
@@ -116,6 +121,9 @@ mod tests {
         let lines = readings.lines(&scene, |_| false);
         assert_eq!((lines[0].temperature, lines[0].acid), (Some(100), Some(96)));
         assert_eq!((lines[1].temperature, lines[1].acid), (None, None));
+        readings.last[0].volume = 1.6e-4;
+        let volumes = [0, 1, 2].map(|flask| readings.volume(flask));
+        assert_eq!(volumes, [Some(1.6e-4), Some(0.0), None]);
         // Without the first, the second's line is still the second's.
         scene.flasks[0].stage_from_flask.orientation = Quat::from_rotation_x(3.0);
         readings.last[1] = reading(7, 20.4, 0.0);

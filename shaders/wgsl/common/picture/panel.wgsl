@@ -3,25 +3,14 @@
 //! A runtime may show the same image in a layer of its own under the picture, and sample it once, where the picture's samples are
 //! sampled again. So `see_through` says where that layer is to be seen in place of the picture.
 
-//!include common/picture/encode.wgsl
 //!include common/picture/frame.wgsl
-
-/// sRGB-encoded.
-@group(0) @binding(12) var panel: texture_2d_array<f32>;
-@group(0) @binding(13) var between: sampler;
+//!include common/picture/panel_light.wgsl
 
 /// Share of its half sides that the panel is seen through to the layer under it: what filters and moves the picture takes in
 /// some pixels around, and beyond the layer's edge there is nothing.
 const SEEN_THROUGH = 0.985;
 /// Beyond half sides, up to which a pixel may have a part of it.
 const REACHES = 1.1;
-/// Places in a pixel that are sampled: each filters over two texels, so that up to four texels a pixel count.
-const TAPS = array<vec2<f32>, 4>(
-    vec2<f32>(0.125, 0.375),
-    vec2<f32>(-0.375, 0.125),
-    vec2<f32>(-0.125, -0.375),
-    vec2<f32>(0.375, -0.125),
-);
 
 /// Where a ray meets a panel's plane.
 struct OnPanel {
@@ -46,12 +35,6 @@ fn meets_panel(origin: vec3<f32>, direction: vec3<f32>) -> OnPanel {
 
 fn is_on_panel(at: vec2<f32>, half: f32) -> bool {
     return all(abs(at) <= vec2<f32>(half));
-}
-
-/// The panel's light, as displayed.
-fn panel_light(at: vec2<f32>) -> vec3<f32> {
-    let place = vec2<f32>(0.5, 0.5) + vec2<f32>(0.5, -0.5) * at;
-    return decoded(textureSampleLevel(panel, between, place, 0u, 0.0).rgb);
 }
 
 /// What of a pixel the panel takes.

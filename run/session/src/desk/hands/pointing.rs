@@ -1,8 +1,10 @@
 //! What the pointer's ray meets, and how a hand stands at what it is to take.
 
 use glam::{Mat3, Quat, Vec2, Vec3};
-use vitriol_xr::{Around, Kind, Pose, Side, Thing};
+use vitriol_xr::{Around, Kind, Pointed, Pose, Side, Thing};
 
+use super::Hands;
+use super::gloves::other;
 use super::obstacles::{axis, counts, level, slides};
 
 /// How far the ray may pass beside what it picks, m. Our choice: a rod is 7 mm thick.
@@ -23,6 +25,19 @@ const FAR: f32 = 5.0;
 
 /// A ray: its origin, and a unit vector.
 pub(super) type Ray = (Vec3, Vec3);
+
+impl Hands {
+    /// What a press would act on, after the last frame; `None` while the active hand holds something or takes it.
+    pub fn pointed(&self) -> Option<Pointed> {
+        let picked = self.picked.filter(|_| self.press.is_none());
+        match picked {
+            _ if !self.movers[self.active as usize].is_free() => None,
+            _ if self.on_panel => Some(Pointed::Panel),
+            _ if self.on_glove => Some(Pointed::Glove(other(self.active))),
+            picked => picked.map(Pointed::Thing),
+        }
+    }
+}
 
 /// Where a ray meets the plane through `point` with that normal.
 pub(super) fn plane((from, along): Ray, point: Vec3, normal: Vec3) -> Option<Vec3> {

@@ -4,7 +4,7 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Quat, Vec3};
-use vitriol_xr::{Around, Hand, Kind, Pose, Side, Thing};
+use vitriol_xr::{Around, Hand, Kind, Pointed, Pose, Side, Thing};
 
 use super::{Controls, Hands};
 

@@ -19,6 +19,12 @@ pub fn within(window: [u32; 2], extent: [u32; 2], at: [f64; 2]) -> [f32; 2] {
     })
 }
 
+/// The place in a window (pixels) of a place of its picture, the other way about.
+pub fn onto(window: [u32; 2], extent: [u32; 2], at: [f32; 2]) -> [f32; 2] {
+    let (corner, size) = place(window, extent);
+    [0, 1].map(|side| corner[side] as f32 + at[side] * size[side] as f32)
+}
+
 /// Lays `picture` as large as it fits in the middle of `window`.
 pub fn lay(window: &mut [u32], size: [u32; 2], picture: &[u32], extent: [u32; 2]) {
     let ([left, upper], [across, down]) = place(size, extent);
@@ -73,7 +79,14 @@ mod tests {
     #[test]
     fn a_pointer_is_where_the_picture_lies() {
         // 400 × 300 in 1000 × 600: 800 × 600, with 100 columns to the left.
-        let at = |x: f64, y: f64| within([1000, 600], [400, 300], [x, y]);
+        let at = |x: f64, y: f64| {
+            let at = within([1000, 600], [400, 300], [x, y]);
+            let back = onto([1000, 600], [400, 300], at);
+            // Rounding of single precision.
+            let off = [f64::from(back[0]) - x, f64::from(back[1]) - y];
+            assert!(off.iter().all(|it| it.abs() < 1e-3), "{x} {y}: {back:?}");
+            at
+        };
         assert_eq!(at(100.0, 0.0), [0.0, 0.0]);
         assert_eq!(at(900.0, 600.0), [1.0, 1.0]);
         assert_eq!(at(500.0, 150.0), [0.5, 0.25]);

@@ -2,6 +2,27 @@
 
 use super::*;
 
+/// What a press would act on is known, and nothing of it while the hand holds something.
+#[test]
+fn what_is_pointed_at_is_known() {
+    let mut bench = Bench::new(two_flasks(), RATES[0]);
+    for (at, expected) in [
+        (at_source(), Some(Pointed::Thing(SOURCE))),
+        (at_target(), Some(Pointed::Thing(TARGET))),
+        // On the bench between both, and on the panel's middle.
+        (Vec3::new(0.0, TABLE, -0.30), None),
+        (Vec3::new(0.0, 1.16, -0.80), Some(Pointed::Panel)),
+    ] {
+        bench.point(at);
+        assert_eq!(bench.hands.pointed(), expected, "{at}");
+    }
+    bench.take();
+    assert_eq!(bench.hands.pointed(), None);
+    bench.release();
+    bench.wait(6.0);
+    assert_eq!(bench.hands.pointed(), Some(Pointed::Thing(SOURCE)));
+}
+
 /// A rod is dipped through the mouth of a beaker and leaves through it, and a cloth lies on the table as it wipes. Both are put down
 /// as they lay.
 #[test]

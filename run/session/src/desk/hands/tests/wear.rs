@@ -117,6 +117,8 @@ fn gloves_are_pulled_off() {
             let palm = bench.now[0].stage_from_grip.position;
             if clicks {
                 bench.point(palm);
+                let glove = Pointed::Glove(Side::Left);
+                assert_eq!(bench.hands.pointed(), Some(glove));
                 let marks = bench.hands.lines();
                 let wrist = palm + 0.095 * Vec3::Z;
                 assert_eq!(marks.len(), 12);
