@@ -3,6 +3,7 @@
 pub mod report;
 
 use std::io::IsTerminal;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
@@ -37,19 +38,16 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Prepares a session with these options, whose recording must not be there. The console's address goes to standard error, and so do
-    /// the terminal's keys where somebody can type.
+    /// Prepares a session with these options. The console's address goes to standard error, and so do the terminal's keys where somebody
+    /// can type.
     ///
     /// # Errors
-    /// [`Failure::Input`] for a console or a class's file that cannot be had, or a recording that is there.
+    /// [`Failure::Input`] for a console or a class's file that cannot be had.
     pub fn new(
         args: &'a SessionArgs,
         format: Format,
         mut options: Options,
     ) -> Result<Self, Failure> {
-        if let Some(file) = args.record.clone().filter(|file| !files::is_absent(file)) {
-            return Err(track::blame(TrackError::Exists { file }));
-        }
         let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
         let serving = match args.no_console {
             true => None,
@@ -170,11 +168,15 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// The options of a session in a headset, whose posture and foveation are not asked for.
+/// The options of a session in a headset, whose posture and foveation are not asked for. Nothing is opened yet, no window either, when a
+/// recording that cannot be made is refused.
 ///
 /// # Errors
-/// [`Failure::Input`] for a scene or a lesson that is not there.
+/// [`Failure::Input`] for a scene or a lesson that is not there, or a recording that is; [`Failure::Other`] for one in a folder that is not.
 pub fn options(args: &SessionArgs) -> Result<Options, Failure> {
+    if let Some(file) = &args.record {
+        can_be_made(file).map_err(track::blame)?;
+    }
     let mut scenes = Scenes::default();
     let course = course(args)?;
     let scene = course
@@ -215,6 +217,22 @@ pub fn options(args: &SessionArgs) -> Result<Options, Failure> {
             .name
             .clone()
             .filter(|_| args.keep.pseudonym.is_none()),
+    })
+}
+
+/// Whether a recording can be made there, as far as can be told without making it.
+fn can_be_made(file: &Path) -> Result<(), TrackError> {
+    let at = || file.to_owned();
+    if !files::is_absent(file) {
+        return Err(TrackError::Exists { file: at() });
+    }
+    // That of a bare name is empty.
+    let folder = file.parent().filter(|it| !it.as_os_str().is_empty());
+    let there = folder.map_or(Ok(()), |it| std::fs::metadata(it).map(drop));
+    there.map_err(|source| TrackError::Io {
+        file: at(),
+        action: "create",
+        source,
     })
 }
 

@@ -229,8 +229,12 @@ pub struct Holdings {
 }
 
 impl Holdings {
-    /// Now; `None` where the system has no `/proc`.
+    /// Now; `None` where the system is not Linux.
     pub fn now() -> Option<Self> {
+        // Wine shows a Linux machine's `/proc` too, but its server opens the files: `self` is the server there, and not this process.
+        if !cfg!(target_os = "linux") {
+            return None;
+        }
         let status = std::fs::read_to_string("/proc/self/status").ok()?;
         let line = status
             .lines()

@@ -95,6 +95,20 @@ fn a_runtimes_file_is_told_what_is_wrong_with_it() {
     each_fault_has_its_own_message();
 }
 
+/// The recording is looked for before the runtime is.
+#[test]
+fn a_recording_that_is_there_is_told_before_a_runtime_that_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let there = folder.path().join("there.mcap");
+    fs::write(&there, "").unwrap();
+    let missing = folder.path().join("missing.json");
+    let vr = with(&missing, &["vr", "--record", there.to_str().unwrap()]);
+    let message = text(&vr.stderr);
+    assert_eq!(vr.status.code(), Some(2), "{message}");
+    assert!(message.contains("there.mcap: exists"), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+}
+
 /// Where nothing names a runtime, that is said; an empty variable names none.
 #[test]
 fn no_runtime_is_chosen() {

@@ -49,6 +49,29 @@ fn without_a_screen_it_says_what_to_do() {
     }
 }
 
+/// A recording that cannot be made is refused before a device or a window is opened: here the screen would be missed first.
+#[test]
+fn a_recording_is_refused_before_a_window_opens() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let there = folder.path().join("there.mcap");
+    std::fs::write(&there, "").unwrap();
+    let nowhere = folder.path().join("nowhere").join("new.mcap");
+    for (file, code, cause) in [
+        (&there, 2, "there.mcap: exists"),
+        (&nowhere, 1, "new.mcap: cannot create"),
+    ] {
+        let output = without_a_screen(&scene, &["--record", file.to_str().unwrap()]);
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{log}");
+        assert!(output.stdout.is_empty());
+        assert!(log.contains(cause) && !log.contains("DISPLAY"), "{log}");
+        assert_eq!(log.lines().count(), 1, "{log}");
+    }
+    // What was there is as it was.
+    assert_eq!(std::fs::read(&there).unwrap(), b"");
+}
+
 mod long {
     use super::*;
 

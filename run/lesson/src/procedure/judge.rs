@@ -19,7 +19,7 @@
 
 use std::collections::BTreeSet;
 
-use super::condition::Answered;
+use super::condition::{Answered, Condition};
 use super::file::Lesson;
 use super::keeping::Keeping;
 use super::mode::Mode;
@@ -148,6 +148,16 @@ impl Procedure {
         let pairs = self.lesson.steps.iter().zip(&self.steps);
         let mut open = pairs.filter(|(_, tried)| tried.status == Status::Open);
         open.find_map(|(step, _)| Some((step.id.as_str(), step.condition.question()?)))
+    }
+
+    /// What is still to be met of the first open step, in the order of the file: no `all` or `any`, but their parts. Of an `any` that is
+    /// not met each part is given.
+    pub fn left(&self) -> Vec<&Condition> {
+        let pairs = self.lesson.steps.iter().zip(&self.steps);
+        let mut open = pairs.filter(|(_, tried)| tried.status == Status::Open);
+        open.next()
+            .map(|(step, tried)| tried.watch.left(&step.condition))
+            .unwrap_or_default()
     }
 
     /// Status of the lesson and of each step.

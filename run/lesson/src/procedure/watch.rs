@@ -116,6 +116,13 @@ impl Watch {
     pub fn met(&self, condition: &Condition) -> Option<f64> {
         met(condition, &mut self.leaves.iter())
     }
+
+    /// The parts that are neither `all` nor `any`, in the order of the file, without those that are met or are of an `any` that is.
+    pub fn left<'a>(&self, condition: &'a Condition) -> Vec<&'a Condition> {
+        let mut found = Vec::new();
+        left(condition, &mut self.leaves.iter(), &mut found);
+        found
+    }
 }
 
 fn met(condition: &Condition, known: &mut dyn Iterator<Item = &Leaf>) -> Option<f64> {
@@ -131,6 +138,35 @@ fn met(condition: &Condition, known: &mut dyn Iterator<Item = &Leaf>) -> Option<
         Condition::Any(parts) => each(parts).into_iter().flatten().reduce(f64::min),
         _ => known.next()?.met,
     }
+}
+
+/// Appends the parts that are left to `found`; whether there are any.
+fn left<'a>(
+    condition: &'a Condition,
+    known: &mut dyn Iterator<Item = &Leaf>,
+    found: &mut Vec<&'a Condition>,
+) -> bool {
+    let before = found.len();
+    match condition {
+        Condition::All(parts) => {
+            for part in parts {
+                left(part, known, found);
+            }
+        }
+        Condition::Any(parts) => {
+            // Each part takes its own leaves.
+            let open: Vec<bool> = parts.iter().map(|part| left(part, known, found)).collect();
+            if open.contains(&false) {
+                found.truncate(before);
+            }
+        }
+        part => {
+            if known.next().is_none_or(|leaf| leaf.met.is_none()) {
+                found.push(part);
+            }
+        }
+    }
+    found.len() > before
 }
 
 fn pours(leaf: &mut Leaf, poured: &Poured, pour: &Pour) -> Option<Why> {

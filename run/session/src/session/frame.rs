@@ -222,12 +222,13 @@ impl Session {
         self.pacing.begin(same, Some(drawn), bench, run)?;
         (self.readings).begin(self.run.world.scene(), self.summary.texts());
         self.sounds.begin();
-        self.instructor.begin(self.run.events().len());
+        let before = self.run.events().len();
+        self.instructor.begin(before);
         self.scenes += 1;
         self.checkpoints.forget();
         self.spills.clean();
         self.hints.begin();
-        self.summary.begin();
+        self.summary.begin(before);
         Ok(())
     }
 

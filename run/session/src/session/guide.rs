@@ -169,12 +169,10 @@ impl Guide {
         let Some((course, judging)) = self.of(run) else {
             return Asked::by_scene(scene);
         };
-        let procedure = judging.procedure();
-        let number = procedure.state().number.filter(|_| course.mode.tells());
-        let step = number.and_then(|number| procedure.lesson().steps.get(number - 1));
-        step.map_or(Asked::Nothing, |step| {
-            Asked::by_step(&step.condition, scene, run.world.worn())
-        })
+        match course.mode.tells() {
+            true => Asked::by_step(&judging.procedure().left(), scene, run.world.worn()),
+            false => Asked::Nothing,
+        }
     }
 
     /// The lesson's points so far in the run's scene.

@@ -1,6 +1,6 @@
 //! The summary of the attempt, which the user asks for on the panel.
 
-use vitriol_lesson::{Attempt, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
+use vitriol_lesson::{Attempt, Event, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
 use vitriol_run::{Blame, Failure, Run};
 
 use crate::info::Happened;
@@ -18,6 +18,8 @@ pub(super) struct Summary {
     asked: bool,
     /// What is shown, and of how many events it is made.
     shown: Option<(usize, Happened)>,
+    /// The number of events before the scene's start: with the first one after them the present attempt has begun.
+    before: usize,
 }
 
 impl Summary {
@@ -31,6 +33,7 @@ impl Summary {
             rubric,
             asked: false,
             shown: None,
+            before: 0,
         })
     }
 
@@ -50,10 +53,11 @@ impl Summary {
         self.shown = None;
     }
 
-    /// Hides the summary for another bench, at which the user needs the panel.
-    pub fn begin(&mut self) {
+    /// Hides the summary for another bench, at which the user needs the panel. There were `before` events before it.
+    pub fn begin(&mut self, before: usize) {
         self.asked = false;
         self.shown = None;
+        self.before = before;
     }
 
     /// The summary as the panel shows it, where it was asked for or the session `ends`. It covers the run's events so far and those that
@@ -66,16 +70,17 @@ impl Summary {
         let events = run.events();
         let old = |(count, _): &(usize, Happened)| *count != events.len();
         if self.shown.as_ref().is_none_or(old) {
-            let found = events.iter().cloned().chain(run.so_far());
-            let happened = self.of(words, &Attempt::all(found));
+            let happened = self.of(words, events, run.so_far());
             self.shown = Some((events.len(), happened));
         }
         self.shown.as_ref().map(|(_, happened)| happened.clone())
     }
 
-    /// The summary of the last attempt in which something happened. Where that is not the present one, it is called so, with its scene.
-    fn of(&self, words: &SummaryTexts, attempts: &[Attempt]) -> Happened {
+    /// The summary of the last attempt in which something happened, by `events` and those of it that are still going on. Where that is not
+    /// the present one, it is called so, with its scene.
+    fn of(&self, words: &SummaryTexts, events: &[Event], so_far: Vec<Event>) -> Happened {
         let (title, back) = (words.title.clone(), words.back.clone());
+        let attempts = Attempt::all(events.iter().cloned().chain(so_far));
         let happened = |it: &&Attempt| !it.pours.is_empty() || !it.incidents.is_empty();
         let Some(attempt) = attempts.iter().rev().find(happened) else {
             return Happened {
@@ -85,7 +90,8 @@ impl Summary {
                 ..Happened::default()
             };
         };
-        let is_present = attempts.last().is_some_and(|last| happened(&last));
+        let has_begun = events.len() > self.before;
+        let is_present = has_begun && attempts.last().is_some_and(|last| happened(&last));
         let of = (!is_present).then(|| words.scene(self.texts.scene(&attempt.scene)));
         let scene_lines = of.as_ref().map_or(0, |it| columns(it).div_ceil(LINE));
         let room = LINES.saturating_sub(scene_lines);
@@ -173,7 +179,7 @@ mod tests {
     /// Under another scene, or after a new start, the points of the attempt before are not taken for those of this one.
     #[test]
     fn an_earlier_attempt_is_called_so() {
-        use vitriol_lesson::{Cause, Event, Incident, What};
+        use vitriol_lesson::{Cause, Incident, What};
         use vitriol_run::texts::Texts as Words;
 
         let begun = |t_s, scene: &str| Event::Begun {
@@ -195,18 +201,22 @@ mod tests {
             },
             place_m: [0.0; 3],
         });
-        let summary = Summary::new(Language::En, Rubric::default()).unwrap();
+        let mut summary = Summary::new(Language::En, Rubric::default()).unwrap();
         let words = Words::of(Language::En).unwrap().summary;
-        let of = |events: &[Event]| summary.of(&words, &Attempt::all(events.iter().cloned()));
-        let first = [begun(0.0, "acid-into-water"), dropped];
-        let present = of(&first);
+        let mut events = vec![begun(0.0, "acid-into-water"), dropped];
+        let present = summary.of(&words, &events, Vec::new());
         assert_eq!(present.title, "What happened");
-        let [a, b] = first;
-        let before = of(&[a, b, begun(5.0, "water-into-acid")]);
-        assert_eq!(before.title, "What happened before");
-        assert_eq!(before.points, present.points);
-        let scene = (Tone::Plain, "Scene: Acid into water".to_owned());
-        assert_eq!(before.said[0], scene);
-        assert_eq!(before.said[1..], present.said);
+        // After a new start, before its first observation and with it.
+        summary.begin(events.len());
+        let unseen = summary.of(&words, &events, Vec::new());
+        events.push(begun(5.0, "water-into-acid"));
+        let seen = summary.of(&words, &events, Vec::new());
+        for before in [unseen, seen] {
+            assert_eq!(before.title, "What happened before");
+            assert_eq!(before.points, present.points);
+            let scene = (Tone::Plain, "Scene: Acid into water".to_owned());
+            assert_eq!(before.said[0], scene);
+            assert_eq!(before.said[1..], present.said);
+        }
     }
 }

@@ -39,17 +39,19 @@ impl Asked {
         flask(scene, SOURCE).map_or(Self::Nothing, Self::Source)
     }
 
-    /// By a lesson's step that is met by `condition`, for a user who has `worn` on: by the first part of the condition that a sign can
+    /// By what is [left](vitriol_lesson::Procedure::left) of a lesson's step, for a user who has `worn` on: by the first part that a sign can
     /// show.
-    pub fn by_step(condition: &Condition, scene: &Scene, worn: Worn) -> Self {
+    pub fn by_step(left: &[&Condition], scene: &Scene, worn: Worn) -> Self {
+        let mut asked = left.iter().map(|part| Self::by_part(part, scene, worn));
+        asked
+            .find(|it| *it != Self::Nothing)
+            .unwrap_or(Self::Nothing)
+    }
+
+    fn by_part(part: &Condition, scene: &Scene, worn: Worn) -> Self {
         let of =
             |name: &str, asked: fn(usize) -> Self| flask(scene, name).map_or(Self::Nothing, asked);
-        match condition {
-            Condition::All(parts) | Condition::Any(parts) => {
-                let asked = parts.iter().map(|part| Self::by_step(part, scene, worn));
-                let mut shown = asked.filter(|it| *it != Self::Nothing);
-                shown.next().unwrap_or(Self::Nothing)
-            }
+        match part {
             Condition::Lifted(it) => of(&it.flask, Self::Taken),
             Condition::PutDown(it) => of(&it.flask, Self::PutDown),
             Condition::Poured(it) => match (flask(scene, &it.from), flask(scene, &it.into)) {
@@ -145,7 +147,7 @@ mod tests {
     use super::*;
     use crate::first_minute::Handled;
     use glam::Vec3;
-    use vitriol_lesson::Lesson as Course;
+    use vitriol_lesson::{Event, Lesson as Course, Mode, Pour, Procedure, Sight};
 
     /// Source and target, as the scenes' files have them.
     const SOURCE: usize = 0;
@@ -162,11 +164,28 @@ mod tests {
         }
     }
 
+    /// A lesson whose steps before that of this id were left out.
+    fn at_step(lesson: &str, id: &str) -> Procedure {
+        let mut procedure = Procedure::new(Course::builtin(lesson).unwrap(), Mode::Guided);
+        procedure.advance(&Sight::default(), &[]);
+        loop {
+            let state = procedure.state();
+            let open = &state.steps[state.number.unwrap() - 1].id;
+            if open == id {
+                return procedure;
+            }
+            procedure.skip(open, 0.0);
+        }
+    }
+
+    /// What is asked for in the lesson's scene.
+    fn asked(procedure: &Procedure, worn: Worn) -> Asked {
+        Asked::by_step(&procedure.left(), &scene(&procedure.lesson().scene), worn)
+    }
+
     /// What the step of that id asks for.
     fn step(lesson: &str, id: &str, worn: Worn) -> Asked {
-        let lesson = Course::builtin(lesson).unwrap();
-        let step = lesson.steps.iter().find(|step| step.id == id).unwrap();
-        Asked::by_step(&step.condition, &scene(&lesson.scene), worn)
+        asked(&at_step(lesson, id), worn)
     }
 
     /// Flasks with that much in them, mL.
@@ -256,6 +275,36 @@ mod tests {
         assert_eq!(step("wrong-order", "predict", dressed), Asked::Nothing);
         // A glove is to be taken off.
         assert_eq!(step("emergency", "glove-off", dressed), Asked::Nothing);
+    }
+
+    /// Of acid and stirring, once the acid is poured: a rod has no sign.
+    #[test]
+    fn what_is_done_of_a_step_is_asked_for_no_more() {
+        let dressed = worn(true, [true; 2]);
+        let mut pour = at_step("dilute", "pour");
+        assert_eq!(asked(&pour, dressed), Asked::Poured(SOURCE, TARGET));
+        let sight = Sight {
+            t_s: 5.0,
+            ..Sight::default()
+        };
+        let poured = |ml: f64| {
+            Event::Poured(Pour {
+                t_s: 1.0,
+                until_s: 4.0,
+                from: "source".to_owned(),
+                into: Some("target".to_owned()),
+                volume_m3: 1e-6 * ml,
+                fastest_m3_s: 3e-6,
+                acid: 0.98,
+                met: None,
+                bare_face: false,
+            })
+        };
+        pour.advance(&sight, &[poured(1.0)]);
+        assert_eq!(asked(&pour, dressed), Asked::Poured(SOURCE, TARGET));
+        pour.advance(&sight, &[poured(9.0)]);
+        assert_eq!(asked(&pour, dressed), Asked::Nothing);
+        assert_eq!(pour.state().number, Some(3));
     }
 
     #[test]

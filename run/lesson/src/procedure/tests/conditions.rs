@@ -336,3 +336,34 @@ fn evidence_is_of_the_first_or_the_last() {
         assert_eq!(run.line("one").evidence_s, Some(evidence_s), "{condition}");
     }
 }
+
+/// What is left of a step that asks for a pour, and for lifting or stirring.
+#[test]
+fn what_is_met_is_not_left() {
+    let poured = "{ poured = { from = \"a\", into = \"b\", at_least_ml = 5 } }";
+    let lifted = "{ lifted = { flask = \"a\" } }";
+    let stirred = "{ stirred = { flask = \"b\", at_least_s = 3 } }";
+    let mut run = one(&format!(
+        "{{ all = [{poured}, {{ any = [{lifted}, {stirred}] }}] }}"
+    ));
+    let left = |run: &Run| -> Vec<&'static str> {
+        let names = run.procedure.left().into_iter().map(|it| match it {
+            Condition::Poured(_) => "poured",
+            Condition::Lifted(_) => "lifted",
+            Condition::Stirred(_) => "stirred",
+            _ => "other",
+        });
+        names.collect()
+    };
+    assert_eq!(left(&run), ["poured", "lifted", "stirred"]);
+    // One of the two is enough, while it lasts.
+    run.look(STEP, &|it| it.flasks[0].held = true);
+    assert_eq!(left(&run), ["poured"]);
+    run.wait(STEP);
+    assert_eq!(left(&run), ["poured", "lifted", "stirred"]);
+    run.hear(&[pour([10.1, 10.2], 6.0, 2.0, 0.98)]);
+    assert_eq!(left(&run), ["lifted", "stirred"]);
+    run.look(STEP, &|it| it.flasks[0].held = true);
+    assert_eq!(run.status("one"), Status::Done);
+    assert!(left(&run).is_empty());
+}
