@@ -19,7 +19,6 @@ mod motion;
 pub mod neighbours;
 pub mod placement;
 mod reaction;
-mod scene;
 mod state;
 pub mod surface;
 pub mod surroundings;
@@ -30,5 +29,4 @@ pub mod wall_heat;
 #[cfg(test)]
 mod tests;
 
-pub use scene::ChemistryError;
 pub use state::Reference;

@@ -130,14 +130,6 @@ pub enum OrderName {
     AcidFirst,
 }
 
-/// The chemistries that have real amounts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum RealChemistry {
-    /// Enthalpy, evaporation and densities from tables
-    #[default]
-    Physical,
-}
-
 /// Arguments of `vitriol calorimeter`.
 #[derive(Debug, Args)]
 pub struct CalorimeterArgs {
@@ -174,9 +166,6 @@ pub struct CalorimeterArgs {
     /// Which liquid is in the vessel when the other one comes in on top
     #[arg(long, value_enum, default_value_t)]
     pub order: OrderName,
-    /// Chemistry: the paper's has no real amounts
-    #[arg(long, value_enum, default_value_t)]
-    pub chemistry: RealChemistry,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,

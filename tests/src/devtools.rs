@@ -4,6 +4,7 @@
 //! writes them to descriptor 4, which a shell makes of its standard input and output.
 
 use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -27,6 +28,8 @@ pub struct Tab {
     session: String,
     sent: u64,
     complaints: Vec<String>,
+    /// What a page told last.
+    told: Option<String>,
     // Declared last: the profile may only go after the browser has.
     _profile: tempfile::TempDir,
 }
@@ -46,6 +49,7 @@ impl Tab {
             .args(["--headless", "--no-sandbox", "--disable-gpu"])
             .args(["--no-first-run", "--disable-extensions", "--mute-audio"])
             .args(["--ignore-certificate-errors", "--remote-debugging-pipe"])
+            .arg("--allow-file-access-from-files")
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .arg("about:blank")
             .stdin(Stdio::piped())
@@ -77,6 +81,7 @@ impl Tab {
             session: String::new(),
             sent: 0,
             complaints: Vec::new(),
+            told: None,
             _profile: profile,
         };
         tab.attach();
@@ -121,17 +126,27 @@ impl Tab {
         self.to.write_all(&bytes).expect("the browser listens");
         let deadline = Instant::now() + PATIENCE;
         loop {
-            let left = deadline.saturating_duration_since(Instant::now());
-            let mut said = match self.from.recv_timeout(left) {
-                Ok(said) => said,
-                Err(RecvTimeoutError::Timeout) => panic!("{method} was not answered"),
-                Err(RecvTimeoutError::Disconnected) => panic!("the browser ended at {method}"),
-            };
+            let mut said = self.hear(deadline, method);
             if said["id"] == self.sent {
                 assert!(said["error"].is_null(), "{method}: {}", said["error"]);
                 return said["result"].take();
             }
             self.note(&said);
+        }
+    }
+
+    /// The browser's next message, awaited for `what`.
+    fn hear(&self, deadline: Instant, what: &str) -> Value {
+        let left = deadline.saturating_duration_since(Instant::now());
+        match self.from.recv_timeout(left) {
+            Ok(said) => said,
+            Err(RecvTimeoutError::Timeout) => {
+                panic!(
+                    "{what} was not answered; the page says {:?}",
+                    self.complaints
+                )
+            }
+            Err(RecvTimeoutError::Disconnected) => panic!("the browser ended at {what}"),
         }
     }
 
@@ -142,7 +157,14 @@ impl Tab {
                 params["exceptionDetails"]["exception"]["description"].to_string()
             }
             Some("Log.entryAdded") => params["entry"].to_string(),
-            Some("Runtime.consoleAPICalled") => params["args"].to_string(),
+            Some("Runtime.consoleAPICalled") => {
+                let text = params["args"][0]["value"].as_str();
+                if let Some(told) = text.and_then(|text| text.strip_prefix("TOLD ")) {
+                    self.told = Some(told.to_owned());
+                    return;
+                }
+                params["args"].to_string()
+            }
             _ => return,
         };
         self.complaints.push(complaint);
@@ -152,6 +174,30 @@ impl Tab {
     pub fn go(&mut self, address: &str) {
         let gone = self.call("Page.navigate", json!({"url": address}));
         assert!(gone["errorText"].is_null(), "{address}: {gone}");
+    }
+
+    /// Goes to a file.
+    ///
+    /// # Panics
+    /// Where it is not there.
+    pub fn open(&mut self, page: &Path) {
+        let page = page.canonicalize().expect("the page's file");
+        self.go(&format!("file://{}", page.display()));
+    }
+
+    /// What a page tells by `console.log("TOLD " + JSON.stringify(value))`.
+    ///
+    /// # Panics
+    /// Where it tells nothing within [`PATIENCE`].
+    pub fn told(&mut self) -> String {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            if let Some(told) = self.told.take() {
+                return told;
+            }
+            let said = self.hear(deadline, "a page's word");
+            self.note(&said);
+        }
     }
 
     /// The value of an expression, after its promises.

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod browser;
-#[cfg(target_os = "linux")]
 pub mod devtools;
 pub mod editors;
 pub mod gpu;

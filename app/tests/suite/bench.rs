@@ -239,8 +239,7 @@ fn time_over_particles_is_measured_and_drawn() {
     let answer = ANSWER.replace("\"particles\": 300", "\"particles\": '$2'");
     program(here, "peer.sh", &format!("echo '{answer}'"));
     let line = "bench --scaling figure.svg --most 4000 --frames 8";
-    let json = VITRIOL.json(here, &words(&format!("{line} --against ./peer.sh")));
-    let found: Value = serde_json::from_str(&json).unwrap();
+    let found = VITRIOL.object(here, &format!("{line} --against ./peer.sh"));
     let scaling = &found["scaling"];
     assert_eq!(
         (&scaling["substeps"], &scaling["iterations"]),
@@ -270,42 +269,23 @@ fn time_over_particles_is_measured_and_drawn() {
     // A circle for each row, of ours and of the peer.
     assert_eq!(svg.matches("<circle").count(), 4, "{svg:.2000}");
 
-    let again = VITRIOL.run(here, &words(line));
-    let said = String::from_utf8(again.stderr).unwrap();
-    assert_eq!(again.status.code(), Some(2), "{said}");
-    assert!(said.contains("figure.svg"), "{said}");
+    VITRIOL.refuses(here, line, &["figure.svg"]);
 }
 
 /// What cannot be had together is refused before anything is measured.
 #[test]
 fn what_does_not_go_together_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    for (line, parts) in [
-        (
-            "bench --against x --render",
-            ["--against <PROGRAM>", "--render"],
-        ),
-        (
-            "bench --against x --features",
-            ["--against <PROGRAM>", "--features"],
-        ),
-        (
-            "bench --scaling x.svg --paper",
-            ["--scaling <FILE.svg>", "--paper"],
-        ),
-        (
-            "bench --scaling x.svg --scene beaker",
-            ["--scaling <FILE.svg>", "--scene"],
-        ),
-        ("bench --most 4000", ["--scaling", "required"]),
-        ("bench --scaling x.svg --most 999", ["--most", "999"]),
-    ] {
-        let output = VITRIOL.run(folder.path(), &words(line));
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
-        for part in parts {
-            assert!(said.contains(part), "{line}: {said}");
-        }
-    }
+    VITRIOL.refuses_each(
+        folder.path(),
+        "
+bench --against x --render => --against <PROGRAM>; --render
+bench --against x --features => --against <PROGRAM>; --features
+bench --scaling x.svg --paper => --scaling <FILE.svg>; --paper
+bench --scaling x.svg --scene beaker => --scaling <FILE.svg>; --scene
+bench --most 4000 => --scaling; required
+bench --scaling x.svg --most 999 => --most; 999
+",
+    );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }

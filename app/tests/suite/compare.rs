@@ -4,31 +4,23 @@ use std::fs;
 
 use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::words;
 
 /// What cannot be compared is refused before anything is made, with what to do instead.
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let refused = [
-        ("two-flasks --compare beaker", "comma between them"),
-        ("two-flasks --compare beaker,beaker", "scenes that differ"),
-        ("two-flasks --compare beaker,nowhere", "no such file"),
-        ("two-flasks dilute --compare beaker,dam-break", "one track"),
-        (
-            "two-flasks --compare beaker,dam-break --no-video",
-            "--no-video",
-        ),
-    ];
-    for (line, part) in refused {
-        let line = format!("replay {line} --out out");
-        let output = VITRIOL.run(here, &words(&line));
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
-        assert!(said.contains(part), "{line}: {said}");
-        assert!(!here.join("out").exists(), "{line}");
-    }
+    VITRIOL.refuses_each(
+        here,
+        "
+replay two-flasks --compare beaker --out out => comma between them
+replay two-flasks --compare beaker,beaker --out out => scenes that differ
+replay two-flasks --compare beaker,nowhere --out out => no such file
+replay two-flasks dilute --compare beaker,dam-break --out out => one track
+replay two-flasks --compare beaker,dam-break --no-video --out out => --no-video
+",
+    );
+    assert!(!here.join("out").exists());
 }
 
 mod long {
@@ -47,7 +39,7 @@ mod long {
             "replay two-flasks --compare {} {SHORT} --out both",
             ORDERS.join(",")
         );
-        let told: Value = serde_json::from_str(&VITRIOL.json(here, &words(&compare))).unwrap();
+        let told = VITRIOL.object(here, &compare);
         let kept = fs::read(here.join("both/compare.json")).unwrap();
         let kept: Value = serde_json::from_slice(&kept).unwrap();
         assert_eq!(kept["scenes"], told["scenes"]);
@@ -76,17 +68,10 @@ mod long {
             assert!(both["hottest_c"].as_f64().unwrap() > 10.0, "{both}");
             let alone =
                 format!("replay two-flasks --scene {order} {SHORT} --no-video --out {order}");
-            let alone = VITRIOL.json(here, &words(&alone));
-            let alone: Value = serde_json::from_str(&alone).unwrap();
+            let alone = VITRIOL.object(here, &alone);
             assert_eq!(both["state_hash"], alone["state_hash"], "{order}");
         }
 
-        let again = VITRIOL.run(here, &words(&compare));
-        assert_eq!(again.status.code(), Some(2));
-        let said = String::from_utf8_lossy(&again.stderr);
-        assert!(
-            said.contains("compare.mp4") && said.contains("not overwritten"),
-            "{said}"
-        );
+        VITRIOL.refuses(here, &compare, &["compare.mp4", "not overwritten"]);
     }
 }

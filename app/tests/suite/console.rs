@@ -7,7 +7,7 @@ use std::process::{ChildStderr, Command, Stdio};
 use crate::vr::common::scene;
 use serde_json::Value;
 use vitriol_tests::devtools::Tab;
-use vitriol_tests::program::Kept;
+use vitriol_tests::program::{Kept, words};
 use vitriol_tests::wait::until;
 
 /// The program at work.
@@ -17,9 +17,9 @@ struct Running {
 }
 
 impl Running {
-    fn start(folder: &Path, arguments: &[&str]) -> Self {
+    fn start(folder: &Path, line: &str) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-            .args(arguments)
+            .args(words(line))
             .current_dir(folder)
             .env("XDG_DATA_HOME", folder.join("data"))
             .stdin(Stdio::null())
@@ -73,47 +73,15 @@ fn a_class_has_one_console() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(mut tab) = Tab::new() else { return };
-    let mut hub = Running::start(
-        folder,
-        &[
-            "hub",
-            "--json",
-            "--listen",
-            "127.0.0.1:0",
-            "--language",
-            "de",
-        ],
-    );
+    let mut hub = Running::start(folder, "hub --json --listen 127.0.0.1:0 --language de");
     let told = hub.object();
-    let students = folder.join("hub.txt");
-    std::fs::write(&students, told["students"].as_str().unwrap()).unwrap();
+    std::fs::write(folder.join("hub.txt"), told["students"].as_str().unwrap()).unwrap();
     tab.go(told["console"].as_str().unwrap());
     tab.until(&format!("!{}.hidden", at("class")));
 
-    let scene = scene(folder);
-    let session = Running::start(
-        folder,
-        &[
-            "vr",
-            "--json",
-            "--stand-in",
-            "two-flasks",
-            "--size",
-            "96x64",
-            "--rate",
-            "10",
-            "--no-mirror",
-            "--fixed",
-            "--preset",
-            "fast",
-            "--scene",
-            scene.to_str().unwrap(),
-            "--hub",
-            students.to_str().unwrap(),
-            "--name",
-            "Ada",
-        ],
-    );
+    scene(folder);
+    let small = "vr --json --stand-in two-flasks --size 96x64 --rate 10 --no-mirror --fixed --preset fast --scene small.toml";
+    let session = Running::start(folder, &format!("{small} --hub hub.txt --name Ada"));
     tab.until("[...document.querySelectorAll('#students button')].find((it) => it.textContent.includes('Ada'))?.click() ?? !document.getElementById('student').hidden");
     tab.until(&format!("Number({}.dataset.drawn) > 2", at("picture")));
     assert_eq!(tab.eval(&format!("{}.textContent", at("name"))), "Ada");
@@ -133,22 +101,11 @@ fn a_replay_is_watched_and_held() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(mut tab) = Tab::new() else { return };
-    let scene = scene(folder);
-    let arguments = [
-        "replay",
-        "--json",
-        "two-flasks",
-        "--live",
-        "--language",
-        "es",
-        "--seconds",
-        "1",
-        "--scene",
-        scene.to_str().unwrap(),
-        "--out",
-        "out",
-    ];
-    let mut replay = Running::start(folder, &arguments);
+    scene(folder);
+    let mut replay = Running::start(
+        folder,
+        "replay --json two-flasks --live --language es --seconds 1 --scene small.toml --out out",
+    );
     tab.go(&replay.console());
     tab.until(&format!("Number({}.dataset.drawn) > 0", at("picture")));
     assert_eq!(tab.eval("document.documentElement.lang"), "es");
@@ -185,19 +142,16 @@ fn a_replay_is_watched_and_held() {
 #[test]
 fn a_console_that_cannot_be_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    for (arguments, word) in [
+    for (line, word) in [
+        ("replay two-flasks --listen 127.0.0.1:0", "--live"),
+        ("hub --listen 203.0.113.1:1", "cannot listen"),
         (
-            &["replay", "two-flasks", "--listen", "127.0.0.1:0"][..],
-            "--live",
-        ),
-        (&["hub", "--listen", "203.0.113.1:1"], "cannot listen"),
-        (
-            &["vr", "--stand-in", "two-flasks", "--hub", "nonsense"],
+            "vr --stand-in two-flasks --hub nonsense",
             "no hub's address",
         ),
-        (&["vr", "--no-console", "--listen", "8470"], "--no-console"),
+        ("vr --no-console --listen 8470", "--no-console"),
     ] {
-        let (code, said) = Running::start(folder.path(), arguments).end();
+        let (code, said) = Running::start(folder.path(), line).end();
         assert_eq!(code, Some(2), "{said}");
         assert!(said.contains(word), "{said}");
     }

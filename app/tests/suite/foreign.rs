@@ -24,6 +24,14 @@ fn foreign(folder: &Path, name: &str, change: impl FnOnce(&mut Track)) {
     save(&track, &folder.join(name), Existing::Replace).unwrap();
 }
 
+/// Commands that open a track.
+fn opens(track: &str) -> [String; 2] {
+    [
+        format!("replay {track} --no-video"),
+        format!("picture {track} --at 0.02 -o x.png"),
+    ]
+}
+
 /// The paths that a track could name are files, so that only whether they are looked up decides.
 #[test]
 fn a_track_reaches_no_file() {
@@ -48,13 +56,10 @@ fn a_track_reaches_no_file() {
             });
         });
         for track in ["named.mcap", "switched.mcap"] {
-            for command in [
-                &["replay", track, "--no-video"][..],
-                &["picture", track, "--at", "0.02", "-o", "x.png"],
-            ] {
-                let output = VITRIOL.run(here, command);
+            for line in opens(track) {
+                let output = VITRIOL.run(here, &line);
                 let said = said(&output);
-                assert_eq!(output.status.code(), Some(2), "{command:?} {scene}: {said}");
+                assert_eq!(output.status.code(), Some(2), "{line} {scene}: {said}");
                 assert!(said.contains("does not carry"), "{said}");
                 assert!(!said.contains("the first line"), "{said}");
             }
@@ -64,8 +69,7 @@ fn a_track_reaches_no_file() {
     foreign(here, "named.mcap", |track| {
         track.metadata.scene = "mine.toml".into();
     });
-    let arguments = ["replay", "named.mcap", "--no-video", "--scene", "mine.toml"];
-    let output = VITRIOL.run(here, &arguments);
+    let output = VITRIOL.run(here, "replay named.mcap --no-video --scene mine.toml");
     assert!(output.status.success(), "{}", said(&output));
 }
 
@@ -79,13 +83,11 @@ fn what_a_track_carries_is_held_to_what_any_scene_is() {
         track.metadata.scene = "mine.toml".into();
         track.metadata.scenes.insert("mine.toml".into(), fine);
     });
-    let output = VITRIOL.run(folder.path(), &["replay", "x.mcap"]);
+    let output = VITRIOL.run(folder.path(), "replay x.mcap");
     let said = said(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(
-        said.contains("the track's scene \"mine.toml\": scale.spacing"),
-        "{said}"
-    );
+    let part = "the track's scene \"mine.toml\": scale.spacing";
+    assert!(said.contains(part), "{said}");
 }
 
 /// Opening a pipe would wait for ever, and reading `/dev/zero` would fill the memory.
@@ -105,16 +107,13 @@ fn folders_pipes_and_devices_are_refused() {
         ("pipe.toml", "a pipe"),
         ("/dev/zero", "a pipe or device"),
     ] {
-        for arguments in [
-            &["track", file][..],
-            &["replay", file],
-            &["replay", "two-flasks", "--scene", file],
-            &["bench", "--scene", file],
+        for line in [
+            "track",
+            "replay",
+            "replay two-flasks --scene",
+            "bench --scene",
         ] {
-            let output = VITRIOL.run(here, arguments);
-            let said = said(&output);
-            assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
-            assert!(said.contains(kind), "{arguments:?}: {said}");
+            VITRIOL.refuses(here, &format!("{line} {file}"), &[kind]);
         }
     }
 }
@@ -147,16 +146,16 @@ fn a_tracks_texts_do_not_steer_the_terminal() {
         }
         track.metadata.scenes.insert(evil.into(), own);
     });
-    for (arguments, works) in [
-        (&["track", "x.mcap"][..], true),
-        (&["track", "x.mcap", "--json"], true),
-        (&["replay", "x.mcap"], false),
-        (&["replay", "runs.mcap", "--no-video"], true),
-        (&["replay", "runs.mcap", "--no-video", "--json"], true),
+    for (line, works) in [
+        ("track x.mcap", true),
+        ("track x.mcap --json", true),
+        ("replay x.mcap", false),
+        ("replay runs.mcap --no-video", true),
+        ("replay runs.mcap --no-video --json", true),
     ] {
-        let output = VITRIOL.run(folder.path(), arguments);
+        let output = VITRIOL.run(folder.path(), line);
         let said = said(&output);
-        assert_eq!(output.status.success(), works, "{arguments:?}: {said}");
+        assert_eq!(output.status.success(), works, "{line}: {said}");
         let shown = said.contains(r"\u{1b}[2J\u{202e}x") || said.contains(r"\u001b[2J\u202ex");
         assert!(shown, "{said}");
         let steers = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
@@ -180,17 +179,12 @@ fn missing_steps_are_said_and_not_filled_in() {
             track.stage_from_flasks.remove(5);
         }
     });
-    let replay = ["replay", "holed.mcap", "--no-video", "--json"];
-    let output = VITRIOL.run(here, &replay);
-    assert_eq!(output.status.code(), Some(2));
-    let message = said(&output);
+    let replay = "replay holed.mcap --no-video";
     let parts = ["3 steps are missing", "0.0667 s", "--accept-truncated"];
-    assert!(parts.iter().all(|part| message.contains(part)), "{message}");
-    assert!(said(&VITRIOL.run(here, &["track", "holed.mcap"])).contains("3 steps are missing."));
+    VITRIOL.refuses(here, replay, &parts);
+    assert!(said(&VITRIOL.run(here, "track holed.mcap")).contains("3 steps are missing."));
 
-    let output = VITRIOL.run(here, &[&replay[..], &["--accept-truncated"]].concat());
-    assert!(output.status.success(), "{}", said(&output));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = VITRIOL.object(here, &format!("{replay} --accept-truncated"));
     let simulated = report["simulated_s"].as_f64().unwrap();
     assert!((simulated - 4.0 / 60.0).abs() < 0.012, "{report}");
     let command = report["command"].as_str().unwrap();
@@ -207,7 +201,7 @@ fn what_breaks_off_is_not_made_whole() {
     });
     let bytes = fs::read(here.join("whole.mcap")).unwrap();
     fs::write(here.join("cut.mcap"), &bytes[..bytes.len() - 20]).unwrap();
-    let saved = VITRIOL.run(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
+    let saved = VITRIOL.run(here, "track cut.mcap -o saved.mcap");
     assert!(saved.status.success(), "{}", said(&saved));
     foreign(here, "late.mcap", |track| {
         track.metadata.scene = "beaker".into();
@@ -222,29 +216,22 @@ fn what_breaks_off_is_not_made_whole() {
             "lacks its first step, so that nothing of it can be replayed: it was cut or filtered",
         ),
     ] {
-        for command in [
-            &["replay", track, "--no-video"][..],
-            &["picture", track, "--at", "0.02", "-o", "x.png"],
-        ] {
-            let output = VITRIOL.run(here, command);
-            let said = said(&output);
-            assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
-            assert!(said.contains(says), "{command:?}: {said}");
+        for line in opens(track) {
+            VITRIOL.refuses(here, &line, &[says]);
         }
     }
     // What looks into it says the same: of three steps, two are there.
-    let told = said(&VITRIOL.run(here, &["track", "late.mcap"]));
+    let told = said(&VITRIOL.run(here, "track late.mcap"));
     assert!(told.contains("2 frames"), "{told}");
     assert!(
         told.contains("A step is missing.\nIt begins at step 1,"),
         "{told}"
     );
-    let info = VITRIOL.run(here, &["track", "late.mcap", "--json"]);
-    let info: serde_json::Value = serde_json::from_slice(&info.stdout).unwrap();
+    let info = VITRIOL.object(here, "track late.mcap");
     assert_eq!(info["missing_steps"], 1);
     assert_eq!(info["missing_first_steps"], 1);
-    let accepted = ["replay", "saved.mcap", "--no-video", "--accept-truncated"];
-    assert!(VITRIOL.run(here, &accepted).status.success());
+    let accepted = "replay saved.mcap --no-video --accept-truncated";
+    assert!(VITRIOL.run(here, accepted).status.success());
 }
 
 /// A scene whose steps are so short that a run would take for ever, and a track of hours.
@@ -267,10 +254,7 @@ fn a_run_has_an_end() {
             track.metadata.scenes.insert("x.toml".into(), short);
             track.frames[2].time_ns = 10_000_000_000_000;
         });
-        let output = VITRIOL.run(folder.path(), &["replay", "x.mcap", "--no-video"]);
-        let said = said(&output);
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains(says), "{said}");
+        VITRIOL.refuses(folder.path(), "replay x.mcap --no-video", &[says]);
     }
 }
 
@@ -287,34 +271,13 @@ mod long {
             .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
             .replacen("substeps = 10", "substeps = 4", 1);
         fs::write(here.join("small.toml"), &small).unwrap();
-        let session = [
-            "vr",
-            "--stand-in",
-            "two-flasks",
-            "--fixed",
-            "--frames",
-            "30",
-            "--size",
-            "64x64",
-            "--scene",
-            "small.toml",
-            "--record",
-            "x.mcap",
-            "--no-mirror",
-            "--json",
-        ];
-        let output = VITRIOL.run(here, &session);
-        assert!(output.status.success(), "{}", said(&output));
-        let session: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let session = VITRIOL.object(
+            here,
+            "vr --stand-in two-flasks --fixed --frames 30 --size 64x64 --scene small.toml --record x.mcap --no-mirror",
+        );
         fs::remove_file(here.join("small.toml")).unwrap();
 
-        let replayed = |arguments: &[&str]| -> serde_json::Value {
-            let all = [&["replay", "x.mcap", "--no-video", "--json"], arguments].concat();
-            let output = VITRIOL.run(here, &all);
-            assert!(output.status.success(), "{}", said(&output));
-            serde_json::from_slice(&output.stdout).unwrap()
-        };
-        let same = replayed(&[]);
+        let same = VITRIOL.object(here, "replay x.mcap --no-video");
         assert_eq!(same["state_hash"], session["state_hash"]);
         let recording = &same["recording"];
         assert_eq!(recording["same_state"], true);
@@ -326,7 +289,7 @@ mod long {
         let other = small.replacen("volume_ml = 150.0", "volume_ml = 100.0", 1);
         assert_ne!(other, small);
         fs::write(here.join("small.toml"), other).unwrap();
-        let other = replayed(&["--scene", "small.toml", "--seed", "9"]);
+        let other = VITRIOL.object(here, "replay x.mcap --no-video --scene small.toml --seed 9");
         let recording = &other["recording"];
         assert_eq!(recording["same_state"], false);
         let differs = recording["differs"].to_string();
@@ -339,7 +302,7 @@ mod long {
         let parameters = &mut track.metadata.parameters;
         parameters.insert("device".into(), "Voodoo".into());
         save(&track, &here.join("x.mcap"), Existing::Replace).unwrap();
-        let elsewhere = replayed(&[]);
+        let elsewhere = VITRIOL.object(here, "replay x.mcap --no-video");
         let differs = elsewhere["recording"]["differs"].to_string();
         for part in ["version 0.0.9", "the device Voodoo"] {
             assert!(differs.contains(part), "{differs}");

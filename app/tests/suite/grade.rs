@@ -51,10 +51,10 @@ fn a_bad_file_is_a_line_and_stops_no_other() {
         assert_eq!(line(&class, "student-00").points, Some(85));
     }
     // As a program of its own.
-    let arguments = ["grade", ".", "--scene", SCENE, "--json"];
-    let strict = VITRIOL.run(folder.path(), &[&arguments[..], &["--strict"]].concat());
+    let line = format!("grade . --scene {SCENE} --json");
+    let strict = VITRIOL.run(folder.path(), &format!("{line} --strict"));
     assert_eq!(strict.status.code(), Some(2));
-    let output = VITRIOL.run(folder.path(), &arguments);
+    let output = VITRIOL.run(folder.path(), &line);
     let warned = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{warned}");
     assert_eq!(warned.matches("student-05.mcap").count(), 1, "{warned}");
@@ -166,7 +166,7 @@ fn another_scene_is_listed_and_never_graded() {
     // A scene of the teacher's own.
     let own = here.join("own.toml");
     fs::write(&own, &diluted.metadata.scenes[SCENE]).unwrap();
-    let output = VITRIOL.run(here, &["grade", ".", "--scene", "own.toml", "--json"]);
+    let output = VITRIOL.run(here, "grade . --scene own.toml --json");
     let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(
         (&told["graded"], &told["otherwise"]),
@@ -416,7 +416,7 @@ fn a_danger_caps_the_points_and_is_named() {
         "{table}"
     );
     assert!(table.contains(why), "{table}");
-    let told = VITRIOL.run(here, &["grade", ".", "--scene", SCENE]);
+    let told = VITRIOL.run(here, &format!("grade . --scene {SCENE}"));
     let told = String::from_utf8(told.stdout).unwrap();
     assert!(told.contains("51 of 85  At most 51 of 85"), "{told}");
 }

@@ -24,20 +24,12 @@ fn a_lesson_has_a_film_with_subtitles() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("still.toml"), KEYFRAMES).unwrap();
-    let made = VITRIOL.run(here, &["track", "still.toml", "-o", "still.mcap"]);
+    let made = VITRIOL.run(here, "track still.toml -o still.mcap");
     assert!(made.status.success());
 
-    let film = ["lesson", "dilute", "--film", "films/dilute.mp4"];
-    let options = [
-        "--track",
-        "still.mcap",
-        "--preset",
-        "fast",
-        "--language",
-        "zh",
-    ];
-    let arguments = [&film[..], &options].concat();
-    let told: serde_json::Value = serde_json::from_str(&VITRIOL.json(here, &arguments)).unwrap();
+    let line =
+        "lesson dilute --film films/dilute.mp4 --track still.mcap --preset fast --language zh";
+    let told = VITRIOL.object(here, line);
     assert_eq!(told["verdict"]["points"], 0, "{told}");
     assert_eq!(told["subtitles"].as_array().unwrap().len(), 4);
 
@@ -50,36 +42,15 @@ fn a_lesson_has_a_film_with_subtitles() {
         assert!(count(&film, title.as_bytes()) > 0, "{language}: {title}");
     }
 
-    let again = VITRIOL.run(here, &arguments);
-    assert_eq!(again.status.code(), Some(2));
-    let said = String::from_utf8(again.stderr).unwrap();
-    assert!(
-        said.contains("dilute.mp4") && said.contains("not overwritten"),
-        "{said}"
-    );
+    VITRIOL.refuses(here, line, &["dilute.mp4", "not overwritten"]);
     assert!(fs::read(&path).unwrap() == film);
 
-    let nowhere = [
-        "lesson",
-        "dilute",
-        "--film",
-        "other/none.mp4",
-        "--track",
-        "none",
-    ];
-    assert_eq!(VITRIOL.run(here, &nowhere).status.code(), Some(2));
+    let nowhere = "lesson dilute --film other/none.mp4 --track none";
+    VITRIOL.refuses(here, nowhere, &[]);
     // One that is made for another scene is filmed all the same, and is told; no device of that name makes the film here.
-    let elsewhere = [
-        "lesson",
-        "wrong-order-hot",
-        "--film",
-        "other/none.mp4",
-        "--track",
-        "still.mcap",
-        "--device",
-        "Voodoo",
-    ];
-    let none = VITRIOL.run(here, &elsewhere);
+    let elsewhere =
+        "lesson wrong-order-hot --film other/none.mp4 --track still.mcap --device Voodoo";
+    let none = VITRIOL.run(here, elsewhere);
     assert!(!none.status.success());
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
@@ -87,16 +58,11 @@ fn a_lesson_has_a_film_with_subtitles() {
         "{said}"
     );
     // No built-in track is made for its scene.
-    let own = VITRIOL.run(here, &["lesson", "wrong-order-hot", "--toml"]);
+    let own = VITRIOL.run(here, "lesson wrong-order-hot --toml");
     let own = String::from_utf8(own.stdout).unwrap();
     let elsewhere = own.replace("scene = \"hot-acid\"", "scene = \"hot-acid-85\"");
     fs::write(here.join("own.toml"), elsewhere).unwrap();
-    let none = VITRIOL.run(here, &["lesson", "own.toml", "--film", "other/none.mp4"]);
-    assert_eq!(none.status.code(), Some(2));
-    let said = String::from_utf8(none.stderr).unwrap();
-    assert!(
-        said.contains("--track") && said.contains("hot-acid-85"),
-        "{said}"
-    );
+    let line = "lesson own.toml --film other/none.mp4";
+    VITRIOL.refuses(here, line, &["--track", "hot-acid-85"]);
     assert!(!here.join("other").exists());
 }

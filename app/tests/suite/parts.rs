@@ -5,19 +5,11 @@ use std::fs;
 use std::path::Path;
 
 use crate::VITRIOL;
-use vitriol_tests::program::words;
 
 fn runs(folder: &Path, line: &str) {
-    let output = VITRIOL.run(folder, &words(line));
+    let output = VITRIOL.run(folder, line);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}: {errors}");
-}
-
-fn refuses(folder: &Path, line: &str, part: &str) {
-    let output = VITRIOL.run(folder, &words(line));
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{line}: {errors}");
-    assert!(errors.contains(part), "{line}: {errors}");
 }
 
 /// The lines of a report that no clock has a part in.
@@ -41,8 +33,8 @@ fn a_trade_says_how_many_cases_there_are_and_which_are_missing() {
     let cases = told["of"].as_u64().unwrap();
     assert!(cases > 10, "{cases}");
     let missing = format!("0..{cases}");
-    refuses(here, "trade --merge none/trade.json", &missing);
-    refuses(here, "trade --merge none/trade.json --quick", "--quick");
+    VITRIOL.refuses(here, "trade --merge none/trade.json", &[&missing]);
+    VITRIOL.refuses_each(here, "trade --merge none/trade.json --quick => --quick");
 }
 
 mod long {
@@ -63,30 +55,19 @@ mod long {
         assert_eq!(one, lines(&here.join("all/extremes.json")));
         assert!(one.contains(&"  \"cases\": 3,".to_owned()), "{one:?}");
 
-        refuses(
-            here,
-            "extremes --merge a/extremes.json all/extremes.json",
-            "3..5",
-        );
         runs(here, "extremes --cases 7..8 --out d");
-        refuses(
-            here,
-            "extremes --merge a/extremes.json d/extremes.json",
-            "5..7",
-        );
         runs(here, "extremes --cases 5..6 --seed 2 --out e");
-        refuses(
-            here,
-            "extremes --merge a/extremes.json e/extremes.json",
-            "seed 2",
-        );
         fs::write(here.join("broken.json"), "{}").unwrap();
-        refuses(
+        VITRIOL.refuses_each(
             here,
-            "extremes --merge broken.json",
-            "broken.json: is no such report",
+            "
+extremes --merge a/extremes.json all/extremes.json => 3..5
+extremes --merge a/extremes.json d/extremes.json => 5..7
+extremes --merge a/extremes.json e/extremes.json => seed 2
+extremes --merge broken.json => broken.json: is no such report
+extremes --merge nowhere.json => nowhere.json
+extremes --cases 9..3 => 100..200
+",
         );
-        refuses(here, "extremes --merge nowhere.json", "nowhere.json");
-        refuses(here, "extremes --cases 9..3", "100..200");
     }
 }

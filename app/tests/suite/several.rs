@@ -4,7 +4,6 @@ use std::fs;
 
 use crate::VITRIOL;
 use serde_json::Value;
-use vitriol_tests::program::words;
 
 /// Several tracks in one call: a folder each, one that fails stops no other, progress as JSON lines that end with the last
 /// step.
@@ -13,7 +12,7 @@ fn several_tracks_are_replayed_in_one_call() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("broken.mcap"), "no track").unwrap();
-    let output = VITRIOL.run(here, &words("replay hands-off broken.mcap hands-off --scene beaker --preset fast --seconds 0.03 --no-video --out runs --json"));
+    let output = VITRIOL.run(here, "replay hands-off broken.mcap hands-off --scene beaker --preset fast --seconds 0.03 --no-video --out runs --json");
     assert_eq!(output.status.code(), Some(2));
     let done: Value = serde_json::from_slice(&output.stdout).unwrap();
     let runs = done["runs"].as_array().unwrap();

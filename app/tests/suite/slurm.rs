@@ -10,7 +10,6 @@ use crate::vr::common::scene;
 use vitriol_lesson::{Cause, Event, Incident, Surface, What};
 use vitriol_run::{Observer, Progress, Scenes, Setup, Span, on_device};
 use vitriol_sim::scene::Preset;
-use vitriol_tests::program::words;
 use vitriol_tests::slurm::Slurm;
 use vitriol_tests::{gpu, wait};
 use vitriol_xr::track::{Existing, Track, TrackSource, save};
@@ -163,15 +162,14 @@ mod long {
 
         // Each job left a table of its own track. The one of the class a single process finds as well.
         let grade = "grade class --scene small.toml --preset fast --out";
-        let told = VITRIOL.json(here, &words(&format!("{grade} grades")));
-        let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+        let told = VITRIOL.object(here, &format!("{grade} grades"));
         assert_eq!((&told["graded"], &told["taken"]), (&6.into(), &6.into()));
         for line in told["lines"].as_array().unwrap() {
             let forger = line["student"] == format!("student-{FORGER:02}");
             let expected = if forger { "differs" } else { "to-the-bit" };
             assert_eq!(line["verified"], expected, "{line}");
         }
-        let _ = VITRIOL.json(here, &words(&format!("{grade} alone --verify")));
+        VITRIOL.object(here, &format!("{grade} alone --verify"));
         let table = |out: &str| fs::read_to_string(here.join(out).join("grades.csv")).unwrap();
         assert_eq!(table("grades"), table("alone"));
     }

@@ -117,11 +117,6 @@ impl AntiViscosity {
         }
     }
 
-    /// T_B, °C.
-    pub fn boiling_point(&self) -> f64 {
-        self.boiling_point
-    }
-
     /// Whether a particle of `temperature` (°C) boils.
     pub fn boils(&self, temperature: f64) -> bool {
         temperature >= self.boiling_point

@@ -334,14 +334,6 @@ impl ReferencePhysical {
             masses: self.contents.iter().map(|content| content.mass).collect(),
         }
     }
-
-    /// Σ m·h of all particles, J.
-    pub fn enthalpy(&self) -> f64 {
-        self.contents
-            .iter()
-            .map(|content| content.mass * content.enthalpy)
-            .sum()
-    }
 }
 
 /// Removes the `values` of particles that are not to `keep`.

@@ -27,29 +27,3 @@ impl DensityError {
         }
     }
 }
-
-/// Where the liquid is, kg.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Masses {
-    /// In each flask.
-    pub in_flasks: Vec<f64>,
-    /// In no flask.
-    pub elsewhere: f64,
-}
-
-impl Masses {
-    /// Masses of particles of `mass` kg each among `flasks` flasks.
-    pub fn of(membership: &[Option<usize>], flasks: usize, mass: f64) -> Self {
-        let mut masses = Self {
-            in_flasks: vec![0.0; flasks],
-            elsewhere: 0.0,
-        };
-        for member_of in membership {
-            match member_of {
-                Some(flask) => masses.in_flasks[*flask] += mass,
-                None => masses.elsewhere += mass,
-            }
-        }
-        masses
-    }
-}

@@ -1,8 +1,7 @@
 //! State of Algorithm 1, and the quantities that follow from it without neighbours.
 
 use super::chemistry::ReferenceChemistry;
-use super::measure::Masses;
-use super::placement::{Motion, Placement};
+use super::placement::Motion;
 use super::surroundings::{Contact, Surroundings};
 use crate::flask::Region;
 use crate::kernel::Kernel;
@@ -115,17 +114,6 @@ impl Reference {
     /// Σ mv, kg·m/s.
     pub fn momentum(&self) -> DVec3 {
         self.velocities.iter().sum::<DVec3>() * self.parameters.particle_mass()
-    }
-
-    /// Mass in each flask and elsewhere.
-    pub fn masses(&self) -> Masses {
-        let flasks = self.surroundings.vessels.len();
-        Masses::of(&self.membership, flasks, self.parameters.particle_mass())
-    }
-
-    /// Where the flasks are.
-    pub fn placements(&self) -> Vec<Placement> {
-        self.motion.iter().map(|motion| motion.after).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use super::placement::{Motion, Placement};
 use crate::flask::particles::BoundaryParticle;
 use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
 use crate::kernel::Kernel;
+use crate::scene::{Boundary, Scene, TableTop};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Representation of the glass in the density sum.
@@ -112,6 +113,29 @@ pub struct WallSum {
 }
 
 impl Surroundings {
+    /// Flasks, table and floor of `scene`.
+    pub fn of_scene(scene: &Scene) -> Self {
+        let support = scene.scale.support();
+        let profiles = scene.flasks.iter().map(|flask| flask.profile.clone());
+        let vessels = match scene.solver.boundary {
+            Boundary::Map => profiles
+                .map(|profile| Vessel::with_maps(profile, support))
+                .collect(),
+            Boundary::Particles => profiles
+                .zip(scene.boundary_particles())
+                .map(|(profile, solids)| Vessel::with_particles(profile, solids, support))
+                .collect(),
+        };
+        let thickness = TableTop::THICKNESS / scene.scale.length_scale;
+        let table = scene.table.map(|table| Slab {
+            top: table.top,
+            under: table.top - thickness,
+            centre: table.centre.into(),
+            size: table.size.into(),
+        });
+        Self::new(vessels, table, Some(scene.floor.height), support)
+    }
+
     /// Surroundings for support radius `support`; metres.
     pub fn new(
         vessels: Vec<Vessel>,

@@ -3,12 +3,10 @@
 //! flask's regions on their own.
 
 mod boiling;
-mod chaos;
 mod contact;
 mod dilution;
 mod eddies;
 mod mixing;
-mod mixing_line;
 mod passes;
 mod rest;
 mod surface;

@@ -81,23 +81,10 @@ fn coefficient(device: &Gpu, spacing: f64) -> f64 {
         }),
         ..tense(spacing)
     };
-    let start = vitriol_sim::fill::fill(
-        &profile,
-        pose(0.0),
-        (FILLING / cell) as usize,
-        spacing,
-        Some(1),
-    );
-    let start = start
-        .unwrap()
-        .into_iter()
-        .map(|position| vitriol_sim::solver::Particle {
-            flask: Some(0),
-            ..drop_at(position, glam::DVec3::ZERO)
-        });
+    let start = water_of(&profile, pose(0.0), spacing, (FILLING / cell) as usize);
     let setup = Setup {
         lanes: None,
-        ..Setup::new(p, vec![profile], start.collect())
+        ..Setup::new(p, vec![profile], start)
     };
     let solver = setup.solver(device);
     let (mut first, mut law) = (None, 0.0);

@@ -20,7 +20,6 @@ mod mixing_line;
 mod nuclei;
 mod paper;
 mod physical;
-mod repeat;
 mod scenes;
 pub mod setup;
 pub mod spray;

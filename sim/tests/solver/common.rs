@@ -6,7 +6,7 @@ use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
 use vitriol_shaders::layout::LiquidLoad;
 use vitriol_sim::bodies::Hand;
-use vitriol_sim::fill::fill;
+use vitriol_sim::fill::{FillError, fill};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::flask::particles::BoundaryParticle;
 use vitriol_sim::parameters::Parameters;
@@ -73,16 +73,20 @@ pub fn narrow_glass() -> Profile {
 
 /// `count` particles at rest in flask `flask` of shape `profile` at `pose`.
 pub fn water(profile: &Profile, flask: usize, pose: Pose, count: usize) -> Vec<Particle> {
-    let positions = fill(profile, pose, count, D, Some(1)).unwrap();
+    inside(flask, fill(profile, pose, count, D, Some(1)))
+}
+
+/// The same `spacing` (m) apart, in the first flask.
+pub fn water_of(profile: &Profile, pose: Pose, spacing: f64, count: usize) -> Vec<Particle> {
+    inside(0, fill(profile, pose, count, spacing, Some(1)))
+}
+
+fn inside(flask: usize, positions: Result<Vec<DVec3>, FillError>) -> Vec<Particle> {
     let inside = |position| Particle {
-        position,
-        velocity: DVec3::ZERO,
         flask: Some(flask),
-        temperature: 20.0,
-        acid: 0.0,
-        carried: 0.0,
+        ..drop_at(position, DVec3::ZERO)
     };
-    positions.into_iter().map(inside).collect()
+    positions.unwrap().into_iter().map(inside).collect()
 }
 
 /// A particle that is in no flask.

@@ -2,9 +2,8 @@
 
 use crate::common::*;
 use crate::tension::tense;
-use glam::{DVec3, Quat, Vec3};
+use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
-use vitriol_sim::fill::fill;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -65,16 +64,10 @@ fn tip(
             Quat::from_rotation_z(-tilt(now).to_radians() as f32),
         )
     };
-    let start = fill(&profile, pose(0.0), count, spacing, Some(1)).unwrap();
-    let particles = start
-        .into_iter()
-        .map(|position| vitriol_sim::solver::Particle {
-            flask: Some(0),
-            ..drop_at(position, DVec3::ZERO)
-        });
+    let particles = water_of(&profile, pose(0.0), spacing, count);
     let setup = Setup {
         lanes: None,
-        ..Setup::new(p, vec![profile.clone()], particles.collect())
+        ..Setup::new(p, vec![profile.clone()], particles)
     };
     let solver = setup.solver(device);
     let mut starts = None;

@@ -1,8 +1,11 @@
-//! Same start, same bits.
+//! Same start, same bits, without and with each chemistry.
 
+use crate::chemistry::setup::*;
 use crate::common::*;
 use glam::{DVec3, Quat, Vec3};
 use vitriol_gpu::Gpu;
+use vitriol_sim::chemistry::Chemistry;
+use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Solver, SolverError, SolverState};
@@ -21,6 +24,17 @@ fn scene() -> Setup {
         ..parameters()
     };
     Setup::new(p, vec![narrow_glass()], particles)
+}
+
+/// Liquid with each chemistry, all of which has something to do, in a glass that stands.
+fn with_chemistries() -> [Setup; 2] {
+    let boils = anti_viscosity(Boiling::Power);
+    let both = paper(Some(dilution()), Some(boils));
+    [both, Chemistry::Physical(everything())].map(|chemistry| {
+        let particles = glass_of(500, |height| (40.0 + 90.0 * height, 0.9 * (1.0 - height)));
+        let p = with(chemistry, parameters());
+        Setup::new(p, vec![narrow_glass()], particles)
+    })
 }
 
 fn pose_at(frame: u32) -> Pose {
@@ -55,6 +69,33 @@ fn same_scene_twice_gives_the_same_bits() {
     moved.x = f64::from((moved.x as f32).next_up());
     let other = run(&device, &other.solver(&device), 0..20);
     assert_ne!(states[0].hash(), other.hash());
+}
+
+#[test]
+fn each_chemistry_gives_the_same_bits() {
+    let device = gpu::device();
+    for setup in with_chemistries() {
+        for lanes in [Some(1), None] {
+            let setup = Setup {
+                lanes,
+                ..setup.clone()
+            };
+            let run = |setup: &Setup| {
+                let solver = setup.solver(&device);
+                frames(&device, &solver, &[Pose::IDENTITY], 4);
+                solver.snapshot().unwrap()
+            };
+            let states = [0, 1].map(|_| run(&setup));
+            assert_eq!(states[0].hash(), states[1].hash());
+            // The ledger, rounding remainders and counters, too.
+            assert!(states[0] == states[1]);
+            // A hundredth of a kelvin of one particle is another run; its last
+            // bit need not be, as diffusion evens it out.
+            let mut other = setup;
+            other.particles[300].temperature += 0.01;
+            assert_ne!(states[0].hash(), run(&other).hash());
+        }
+    }
 }
 
 /// A rebuild has room for some of a cell's particles. Which those are is chance where more are in a cell, and where others are not.
@@ -131,14 +172,9 @@ fn state_on_a_new_device_goes_on_with_the_same_bits() {
         })
         .expect("the water comes to rest");
     let end = run(&device, &solver, 0..8);
-    let bytes = postcard::to_allocvec(&middle).unwrap();
     drop(solver);
 
-    let device = gpu::another_device(|_| {});
-    let solver = setup.solver(&device);
-    let stored: SolverState = postcard::from_bytes(&bytes).unwrap();
-    solver.restore(&stored).unwrap();
-    assert_eq!(solver.snapshot().unwrap().hash(), middle.hash());
+    let (device, solver) = resumed(&setup, &middle);
     frames(&device, &solver, &still, 1);
     assert_eq!(solver.counters().unwrap().list_rebuilds, built);
     let resumed = run(&device, &solver, 0..8);
@@ -148,15 +184,46 @@ fn state_on_a_new_device_goes_on_with_the_same_bits() {
     assert!(middle.hash() != end.hash());
 }
 
+/// Another device, and a solver there that goes on from a state that was stored.
+fn resumed(setup: &Setup, state: &SolverState) -> (gpu::Watched, Solver) {
+    let bytes = postcard::to_allocvec(state).unwrap();
+    let device = gpu::another_device(|_| {});
+    let solver = setup.solver(&device);
+    let stored: SolverState = postcard::from_bytes(&bytes).unwrap();
+    solver.restore(&stored).unwrap();
+    assert_eq!(solver.snapshot().unwrap().hash(), state.hash());
+    (device, solver)
+}
+
+#[test]
+fn each_chemistry_goes_on_with_the_same_bits_on_a_new_device() {
+    for setup in with_chemistries() {
+        let device = gpu::device();
+        let solver = setup.solver(&device);
+        frames(&device, &solver, &[Pose::IDENTITY], 2);
+        let middle = solver.snapshot().unwrap();
+        frames(&device, &solver, &[Pose::IDENTITY], 3);
+        let end = solver.snapshot().unwrap();
+        drop(solver);
+        let (device, solver) = resumed(&setup, &middle);
+        frames(&device, &solver, &[Pose::IDENTITY], 3);
+        let resumed = solver.snapshot().unwrap();
+        assert_eq!(resumed.hash(), end.hash());
+        assert!(resumed == end);
+    }
+}
+
+fn hash_of_changed(state: &SolverState, change: &dyn Fn(&mut SolverState)) -> u64 {
+    let mut other = state.clone();
+    change(&mut other);
+    other.hash()
+}
+
 #[test]
 fn hash_is_of_every_particle_and_not_of_its_slot() {
     let device = gpu::device();
     let state = scene().solver(&device).snapshot().unwrap();
-    let changed = |change: &dyn Fn(&mut SolverState)| {
-        let mut other = state.clone();
-        change(&mut other);
-        other.hash()
-    };
+    let changed = |change: &dyn Fn(&mut SolverState)| hash_of_changed(&state, change);
     assert_eq!(changed(&|_| ()), state.hash());
     assert_ne!(changed(&|s| s.positions[700][1] += 1e-6), state.hash());
     assert_ne!(changed(&|s| s.velocities[7][2] = -0.0), state.hash());
@@ -168,6 +235,22 @@ fn hash_is_of_every_particle_and_not_of_its_slot() {
         s.tags.swap(3, 70);
     });
     assert_eq!(swapped, state.hash());
+}
+
+/// A replay must repeat temperature and contents too.
+#[test]
+fn hash_is_of_heat_and_contents() {
+    let device = gpu::device();
+    for setup in with_chemistries() {
+        let state = setup.solver(&device).snapshot().unwrap();
+        let changed = |change: &dyn Fn(&mut SolverState)| hash_of_changed(&state, change);
+        assert_eq!(changed(&|_| ()), state.hash());
+        assert_ne!(changed(&|s| s.heat[7][0] += 1e-5), state.hash());
+        assert_ne!(changed(&|s| s.heat[7][1] += 1e-6), state.hash());
+        if !state.matter.is_empty() {
+            assert_ne!(changed(&|s| s.matter[7][1] += 0.1), state.hash());
+        }
+    }
 }
 
 #[test]

@@ -293,8 +293,6 @@ fn liquid_that_slept_stands_as_if_it_had_not() {
     assert!((slept[2] - not[2]).abs() < 0.1 * D, "{slept:?} {not:?}");
 }
 
-/// Liquid that is warm, or not even, goes on: it would cool, or mix.
-/// Liquid over a plate that is on never sleeps.
 /// Once a finished frame has told that all liquid sleeps, frames are recorded without it; the bits, and the loads, are as with all passes.
 #[test]
 fn still_frames_have_the_same_bits() {
@@ -395,9 +393,6 @@ fn a_restored_sleep_has_the_same_loads() {
     );
 }
 
-/// Liquid that sloshes is not caught at the turn of its swing: its particles are slow then, and only for a moment.
-/// Water that turns slowly with no particle fast: the mean alone tells that it is not at rest.
-/// Drops in the air may come down, and what is unmixed within particles mixes.
 /// The pass of turnovers is dormant while all sleeps, and runs for liquid that wakes up with fast eddies: the same bits as if it always ran.
 #[test]
 fn what_wakes_up_swaps_as_with_all_passes() {

@@ -1,5 +1,4 @@
 //! `vitriol bench --against`: another program that solves as many particles at rest, asked in turn with ours.
-//! A peer gets the compared quantities as arguments, and prints one JSON object as the last line of its standard output.
 //! A peer gets what is compared as arguments, and prints one JSON object as the last line of its standard output.
 
 use std::io;

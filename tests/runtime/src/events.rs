@@ -34,7 +34,6 @@ pub(crate) enum Event {
         from: f32,
         to: f32,
     },
-    Lost(u32),
     InstanceLossPending(i64),
 }
 
@@ -105,7 +104,6 @@ impl Event {
                     to_display_refresh_rate: rate
                 }
             },
-            Self::Lost(count) => put! { EventDataEventsLost { lost_event_count: count } },
             Self::InstanceLossPending(time) => put! {
                 EventDataInstanceLossPending { loss_time: sys::Time::from_nanos(time) }
             },

@@ -27,7 +27,6 @@ impl State {
 
     fn wait_frame(&mut self, session: sys::Session, frame: Option<&mut sys::FrameState>) -> Answer {
         let (time, period) = (self.time, self.world.period);
-        let asked = self.world.should_render;
         let held = self.session(session)?;
         if !held.running {
             return Err(R::ERROR_SESSION_NOT_RUNNING);
@@ -37,7 +36,7 @@ impl State {
         held.waited = Some(time);
         frame.predicted_display_time = sys::Time::from_nanos(time);
         frame.predicted_display_period = sys::Duration::from_nanos(period);
-        frame.should_render = (seen && asked).into();
+        frame.should_render = seen.into();
         Ok(R::SUCCESS)
     }
 }

@@ -73,8 +73,6 @@ pub enum Change {
     },
     /// Period of the display alone, ns.
     Period(i64),
-    /// Whether a visible session is asked for pictures.
-    ShouldRender(bool),
     /// Whether someone wears the headset (XR_EXT_user_presence).
     Presence(bool),
     /// The part of the picture that no eye sees (XR_KHR_visibility_mask).
@@ -86,8 +84,6 @@ pub enum Change {
         /// Three for each triangle.
         indices: Vec<u32>,
     },
-    /// Formats of swapchains that are offered, Vulkan's numbers.
-    Formats(Vec<i64>),
     /// Most layers of a swapchain's images.
     ArrayLayers(u32),
     /// The eyes.
@@ -97,10 +93,6 @@ pub enum Change {
         /// Distance between them, m.
         ipd: f32,
     },
-    /// Recommended size of an eye's picture, pixels.
-    Extent([u32; 2]),
-    /// Blend modes that are offered, OpenXR's numbers.
-    Blends(Vec<i32>),
     /// The state to which the runtime leads the session.
     Goal(Goal),
     /// An existing object is lost.
@@ -122,8 +114,6 @@ pub enum Change {
     },
     /// Nothing is refused any more.
     RefuseNothing,
-    /// The waiting events are lost, and the runtime reports it (XrEventDataEventsLost).
-    LoseEvents,
     /// XrEventDataInstanceLossPending is raised.
     InstanceLossPending,
 }
@@ -318,8 +308,6 @@ pub enum Goal {
     Visible,
     /// Visible, with input.
     Focused,
-    /// As [`Goal::Idle`].
-    Stopping,
     /// The end. After its event, later sessions are led to the focus.
     Exiting,
     /// A loss that is announced. After its event, later sessions are led to the focus.

@@ -308,7 +308,6 @@ impl State {
                 self.raise_rate(from, now);
             }
             Change::Period(period) => world.period = period,
-            Change::ShouldRender(on) => world.should_render = on,
             Change::Presence(present) => {
                 world.present = present;
                 self.raise(|session| Event::Presence { session, present });
@@ -328,11 +327,8 @@ impl State {
                     eye,
                 });
             }
-            Change::Formats(formats) => world.formats = formats,
             Change::ArrayLayers(most) => world.array_layers = most,
             Change::Views { fov, ipd } => (world.fov, world.ipd) = (fov, ipd),
-            Change::Extent(extent) => world.extent = extent,
-            Change::Blends(blends) => world.blends = blends,
             Change::Goal(goal) => world.goal = goal,
             Change::Lose(Lost::Session) => {
                 self.sessions.values_mut().for_each(|s| s.lost = true);
@@ -353,13 +349,6 @@ impl State {
                 when,
             }),
             Change::RefuseNothing => self.refusals.clear(),
-            Change::LoseEvents => {
-                for instance in self.instances.values_mut().filter(|i| !i.lost) {
-                    let lost = instance.events.len() as u32;
-                    instance.events.clear();
-                    instance.events.push_back(Event::Lost(lost));
-                }
-            }
             Change::InstanceLossPending => {
                 let time = self.time;
                 for instance in self.instances.values_mut().filter(|i| !i.lost) {

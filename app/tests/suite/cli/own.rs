@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{VITRIOL, object, refuses, text};
+use super::{VITRIOL, text};
 
 /// The indented block of a page that begins with that line.
 fn example(page: &str, first: &str) -> String {
@@ -21,59 +21,47 @@ fn example(page: &str, first: &str) -> String {
 fn a_new_lesson_checks_and_overwrites_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let lessons = object(here, &["lesson"])["lessons"].clone();
+    let lessons = VITRIOL.object(here, "lesson")["lessons"].clone();
     let lessons = lessons.as_array().unwrap();
     for (nth, lesson) in lessons.iter().enumerate() {
         let from = lesson["name"].as_str().unwrap();
         for language in ["en", "de", "es", "zh"] {
             let name = format!("own-{nth}-{language}");
             let file = format!("{name}.toml");
-            let new = [
-                "lesson",
-                "new",
-                &name,
-                "--from",
-                from,
-                "--language",
-                language,
-            ];
-            assert_eq!(object(here, &new)["file"], *file);
-            let shown = object(here, &["lesson", &file]);
-            assert_eq!(
-                (&shown["name"], &shown["points"]),
-                (&name.into(), &100.into())
-            );
+            let new = format!("lesson new {name} --from {from} --language {language}");
+            assert_eq!(VITRIOL.object(here, &new)["file"], *file);
+            let shown = VITRIOL.object(here, &format!("lesson {file}"));
+            let told = (&shown["name"], &shown["points"]);
+            assert_eq!(told, (&name.into(), &100.into()));
             assert_eq!(shown["languages"], serde_json::json!([language]));
             // What people type.
-            assert_eq!(object(here, &["lesson", "check", &file]), shown);
-            let builtin = object(here, &["lesson", from, "--language", language]);
-            assert_eq!(shown["title"], builtin["title"]);
+            let checked = VITRIOL.object(here, &format!("lesson check {file}"));
+            assert_eq!(checked, shown);
+            let builtin = format!("lesson {from} --language {language}");
+            assert_eq!(shown["title"], VITRIOL.object(here, &builtin)["title"]);
         }
     }
     // For people it says what comes next, and begins with `dilute` in English.
-    let told = VITRIOL.run(here, &["lesson", "new", "own"]);
+    let told = VITRIOL.run(here, "lesson new own");
     assert!(text(&told.stdout).contains("vitriol lesson own.toml"));
     let file = here.join("own.toml");
     let before = fs::read(&file).unwrap();
-    refuses(
-        here,
-        &["lesson", "new", "own", "--from", "emergency"],
-        2,
-        &["own.toml"],
-    );
+    VITRIOL.refuses(here, "lesson new own --from emergency", &["own.toml"]);
     assert_eq!(fs::read(&file).unwrap(), before);
-    let misspelt = ["lesson", "new", "other", "--from", "dilutte"];
-    refuses(here, &misspelt, 2, &["--from", "did you mean dilute?"]);
     // Of a lesson's own file the ending may be left out, or be there already.
-    refuses(here, &["lesson", "own"], 2, &["did you mean own.toml?"]);
-    assert_eq!(
-        object(here, &["lesson", "new", "mine.toml"])["file"],
-        "mine.toml"
+    let mine = VITRIOL.object(here, "lesson new mine.toml");
+    assert_eq!(mine["file"], "mine.toml");
+    assert_eq!(VITRIOL.object(here, "lesson mine.toml")["name"], "mine");
+    VITRIOL.refuses_each(
+        here,
+        "
+lesson new other --from dilutte => --from; did you mean dilute?
+lesson own => did you mean own.toml?
+lesson new ../other => ../other; a to z
+lesson new Other => Other; a to z
+lesson new dilute => dilute; a to z
+",
     );
-    assert_eq!(object(here, &["lesson", "mine.toml"])["name"], "mine");
-    for wrong in ["../other", "Other", "dilute"] {
-        refuses(here, &["lesson", "new", wrong], 2, &[wrong, "a to z"]);
-    }
     assert_eq!(fs::read_dir(here).unwrap().count(), lessons.len() * 4 + 2);
 }
 
@@ -85,15 +73,15 @@ fn the_lesson_of_the_page_is_good() {
     let here = folder.path();
     let lesson = example(PAGE, "version = 1");
     fs::write(here.join("my-lesson.toml"), &lesson).unwrap();
-    let shown = object(here, &["lesson", "my-lesson.toml"]);
+    let shown = VITRIOL.object(here, "lesson my-lesson.toml");
     assert_eq!(shown["points"], 100);
     assert_eq!(shown["languages"], serde_json::json!(["en"]));
     // Points that are no percentage are no fault, and are told.
-    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, "lesson my-lesson.toml");
     assert_eq!(text(&told.stderr), "");
     let more = lesson.replacen("points = 60", "points = 70", 1);
     fs::write(here.join("my-lesson.toml"), more).unwrap();
-    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, "lesson my-lesson.toml");
     assert!(told.status.success());
     let warned = text(&told.stderr);
     assert!(
@@ -106,7 +94,7 @@ fn the_lesson_of_the_page_is_good() {
         1,
     );
     fs::write(here.join("my-lesson.toml"), faulty).unwrap();
-    let told = VITRIOL.run(here, &["lesson", "my-lesson.toml"]);
+    let told = VITRIOL.run(here, "lesson my-lesson.toml");
     let said = text(&told.stderr).trim_end();
     let said = said.strip_prefix("vitriol: ").unwrap();
     let first = said.lines().next().unwrap();
@@ -118,7 +106,7 @@ fn the_lesson_of_the_page_is_good() {
 fn four_faults_are_four_lines() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    object(here, &["lesson", "new", "own", "--language", "de"]);
+    VITRIOL.object(here, "lesson new own --language de");
     let file = here.join("own.toml");
     let mut lesson = fs::read_to_string(&file).unwrap();
     let faults = [
@@ -140,8 +128,8 @@ fn four_faults_are_four_lines() {
         lesson = lesson.replacen(from, &format!("\n{to}"), 1);
     }
     fs::write(&file, &lesson).unwrap();
-    refuses(here, &["lesson", "own.toml"], 2, &[]);
-    let told = VITRIOL.run(here, &["lesson", "own.toml"]);
+    VITRIOL.refuses(here, "lesson own.toml", &[]);
+    let told = VITRIOL.run(here, "lesson own.toml");
     let said = text(&told.stderr).trim_start_matches("vitriol: ");
     let said: Vec<&str> = said.lines().collect();
     assert_eq!(said.len(), faults.len(), "{said:#?}");
@@ -154,7 +142,7 @@ fn four_faults_are_four_lines() {
         );
         assert!(told.contains(right), "{told}");
     }
-    let told = VITRIOL.run(here, &["lesson", "own.toml", "--language", "de"]);
+    let told = VITRIOL.run(here, "lesson own.toml --language de");
     let german = text(&told.stderr).trim_start_matches("vitriol: ");
     assert_eq!(german.lines().count(), faults.len(), "{german}");
     assert!(
@@ -177,7 +165,7 @@ fn what_is_no_text_is_refused_in_the_language_of_the_call() {
         ("latin.toml", "no es texto en UTF-8"),
         ("long.toml", "tiene más de 1048576 bytes"),
     ] {
-        let told = VITRIOL.run(here, &["lesson", file, "--language", "es"]);
+        let told = VITRIOL.run(here, &format!("lesson {file} --language es"));
         assert_eq!(told.status.code(), Some(2), "{file}");
         let said = text(&told.stderr);
         assert!(
@@ -193,13 +181,13 @@ fn the_track_of_the_page_is_good() {
     let here = folder.path();
     let track = example("write-a-track.md", "name = \"my-track\"");
     fs::write(here.join("my-track.toml"), track).unwrap();
-    let told = object(here, &["track", "my-track.toml"]);
+    let told = VITRIOL.object(here, "track my-track.toml");
     assert_eq!(told["scene"], "two-flasks");
     assert!(
         (told["duration_s"].as_f64().unwrap() - 5.0).abs() < 0.02,
         "{told}"
     );
-    object(here, &["track", "my-track.toml", "-o", "my-track.mcap"]);
-    let again = object(here, &["track", "my-track.mcap"]);
+    VITRIOL.object(here, "track my-track.toml -o my-track.mcap");
+    let again = VITRIOL.object(here, "track my-track.mcap");
     assert_eq!(again["frames"], told["frames"]);
 }

@@ -5,12 +5,12 @@ use std::fs;
 
 use vitriol_lesson::{Language, Texts};
 
-use super::{VITRIOL, object, refuses, text};
+use super::{VITRIOL, text};
 
 #[test]
 fn built_in_tracks_are_listed() {
     let folder = tempfile::tempdir().unwrap();
-    let list = object(folder.path(), &["track", "--list"]);
+    let list = VITRIOL.object(folder.path(), "track --list");
     let tracks = list["tracks"].as_array().unwrap();
     let two_flasks = tracks.iter().find(|t| t["track"] == "two-flasks").unwrap();
     assert!(two_flasks["duration_s"].as_f64().unwrap() >= 8.0, "{list}");
@@ -23,12 +23,12 @@ fn built_in_tracks_are_listed() {
 fn lessons_are_listed_shown_and_checked() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let all = object(here, &["lesson"]);
+    let all = VITRIOL.object(here, "lesson");
     let names: Vec<_> = all["lessons"].as_array().unwrap().iter().collect();
     assert!(names.len() >= 3 && names.iter().any(|it| it["name"] == "dilute"));
     let titles: BTreeSet<String> = ["en", "de", "es", "zh"]
         .map(|language| {
-            let told = object(here, &["lesson", "dilute", "--language", language]);
+            let told = VITRIOL.object(here, &format!("lesson dilute --language {language}"));
             assert_eq!(told["points"], 100);
             told["title"].as_str().unwrap().to_owned()
         })
@@ -36,29 +36,28 @@ fn lessons_are_listed_shown_and_checked() {
     assert_eq!(titles.len(), 4, "{titles:?}");
     // The lesson of the wrong order asks for it, so the score has no cap for it.
     for (lesson, caps) in [("dilute", 3), ("wrong-order", 2)] {
-        let told = object(here, &["lesson", lesson]);
+        let told = VITRIOL.object(here, &format!("lesson {lesson}"));
         assert_eq!(told["caps"].as_array().unwrap().len(), caps, "{told}");
     }
 
-    let own = VITRIOL.run(here, &["lesson", "dilute", "--toml"]);
+    let own = VITRIOL.run(here, "lesson dilute --toml");
     let own = text(&own.stdout);
     let file = here.join("own.toml");
     fs::write(&file, own).unwrap();
-    assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);
+    assert_eq!(VITRIOL.object(here, "lesson own.toml")["points"], 100);
     fs::write(&file, own.replace("into = \"target\"", "into = \"vase\"")).unwrap();
-    let parts = &["own.toml", "step 4, condition.poured.into", "target"];
-    refuses(here, &["lesson", "own.toml"], 2, parts);
-    let stand_in = ["vr", "--no-console", "--stand-in", "two-flasks", "--lesson"];
-    refuses(here, &[&stand_in[..], &["own.toml"]].concat(), 2, parts);
-    let examined = [&stand_in[..], &["dilute", "--mode", "examination"]].concat();
-    refuses(here, &examined, 2, &["examination", "guided"]);
-    refuses(here, &["lesson", "nowhere"], 2, &["nowhere", "dilute"]);
-    // The panel's language needs no lesson; this one is refused for its track alone.
-    let stand_in = ["vr", "--no-console", "--stand-in", "nowhere"];
-    let in_german = [&stand_in[..], &["--language", "de"]].concat();
-    refuses(here, &in_german, 2, &["nowhere", "two-flasks"]);
-    let in_french = [&stand_in[..], &["--language", "fr"]].concat();
-    refuses(here, &in_french, 2, &["fr", "en, de, es, zh"]);
+    // The panel's language needs no lesson; a track that is not there is refused for itself alone.
+    VITRIOL.refuses_each(
+        here,
+        "
+lesson own.toml => own.toml; step 4, condition.poured.into; target
+vr --no-console --stand-in two-flasks --lesson own.toml => own.toml; step 4, condition.poured.into; target
+vr --no-console --stand-in two-flasks --lesson dilute --mode examination => examination; guided
+lesson nowhere => nowhere; dilute
+vr --no-console --stand-in nowhere --language de => nowhere; two-flasks
+vr --no-console --stand-in nowhere --language fr => fr; en, de, es, zh
+",
+    );
 }
 
 /// A window needs a screen. An empty name is none, as winit takes it.
@@ -96,7 +95,7 @@ fn doctor_lists_sound_outputs() {
 #[test]
 fn doctor_says_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();
-    let found = object(folder.path(), &["doctor"]);
+    let found = VITRIOL.object(folder.path(), "doctor");
     let devices = found["devices"].as_array().unwrap();
     let usable = devices.iter().any(|device| device["usable"] == true);
     assert_eq!(found["can_replay"], usable);
@@ -112,7 +111,7 @@ fn doctor_says_what_is_missing() {
 #[test]
 fn scenes_state_their_scale() {
     let folder = tempfile::tempdir().unwrap();
-    let list = object(folder.path(), &["scenes"]);
+    let list = VITRIOL.object(folder.path(), "scenes");
     let scenes = list["scenes"].as_array().unwrap();
     let two_flasks = scenes.iter().find(|s| s["name"] == "two-flasks").unwrap();
     assert_eq!(two_flasks["length_scale"], 1.0, "real size");
@@ -135,37 +134,30 @@ fn scenes_state_their_scale() {
     }
 
     // Titles are in the language that is asked for.
-    let list = object(folder.path(), &["scenes", "--language", "de"]);
+    let list = VITRIOL.object(folder.path(), "scenes --language de");
     let german = Texts::of(Language::De).unwrap();
     for scene in list["scenes"].as_array().unwrap() {
         let name = scene["name"].as_str().unwrap();
         assert_eq!(scene["title"], german.scene(name));
         assert_ne!(scene["title"], name);
     }
-    let told = VITRIOL.run(folder.path(), &["scenes", "--language", "zh"]);
+    let told = VITRIOL.run(folder.path(), "scenes --language zh");
     let chinese = Texts::of(Language::Zh).unwrap();
     let head = format!("hot-acid: {}\n", chinese.scene("hot-acid"));
     assert!(text(&told.stdout).contains(&head), "{head}");
 
     let typo = "name = \"x\"\ngravitty = 1\n";
     fs::write(folder.path().join("typo.toml"), typo).unwrap();
-    let arguments = [
-        "replay",
-        "two-flasks",
-        "--scene",
-        "typo.toml",
-        "--out",
-        "new",
-    ];
-    refuses(folder.path(), &arguments, 2, &["typo.toml", "gravitty"]);
-    let arguments = ["replay", "two-flasks", "--device", "Voodoo", "--out", "new"];
+    let here = folder.path();
+    let line = "replay two-flasks --scene typo.toml --out new";
+    VITRIOL.refuses(here, line, &["typo.toml", "gravitty"]);
+    let elsewhere = "replay two-flasks --device Voodoo --out new";
     // Without any driver it is the driver that is missing.
-    let code = if object(folder.path(), &["doctor"])["can_replay"] == true {
-        2
+    if VITRIOL.object(here, "doctor")["can_replay"] == true {
+        VITRIOL.refuses(here, elsewhere, &[]);
     } else {
-        3
-    };
-    refuses(folder.path(), &arguments, code, &[]);
+        assert_eq!(VITRIOL.run(here, elsewhere).status.code(), Some(3));
+    }
     assert!(!folder.path().join("new").exists());
 }
 
@@ -174,7 +166,7 @@ fn scenes_state_their_scale() {
 fn pages_tell_of_each_command() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let pages = object(here, &["pages", "--out", "pages"]);
+    let pages = VITRIOL.object(here, "pages --out pages");
     let files = pages["files"].as_array().unwrap();
     assert!(files.len() > 15, "{pages}");
     let read = |name: &str| fs::read_to_string(here.join("pages").join(name)).unwrap();
@@ -189,10 +181,5 @@ fn pages_tell_of_each_command() {
         );
     }
     // Nothing is overwritten.
-    refuses(
-        here,
-        &["pages", "--out", "pages"],
-        2,
-        &["vitriol.1", "exists"],
-    );
+    VITRIOL.refuses(here, "pages --out pages", &["vitriol.1", "exists"]);
 }

@@ -2,8 +2,6 @@
 
 use std::os::unix::fs::symlink;
 
-use vitriol_tests::program::words;
-
 use super::{VITRIOL, text};
 
 /// A link to itself, which nobody may follow, as a folder to which this user has no right: who runs the tests may have every right.
@@ -21,7 +19,7 @@ fn what_cannot_be_looked_at_is_not_called_absent() {
         "grade --scene two-flasks x.mcap",
         "forget p01 --class x.sqlite",
     ] {
-        let output = VITRIOL.run(here, &words(line));
+        let output = VITRIOL.run(here, line);
         let told = text(&output.stderr);
         assert_ne!(output.status.code(), Some(0), "{line}: {told}");
         assert!(told.contains("x."), "{line}: {told}");

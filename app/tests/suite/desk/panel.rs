@@ -2,6 +2,7 @@
 
 use crate::desk::common::{By, Script, User, sat};
 use crate::desk::seen::{SOURCE, Seen, TARGET};
+use crate::vr::common::switched;
 use crate::vr::panel::place_at_desk;
 use glam::Vec3;
 use vitriol_run::Action;
@@ -150,9 +151,7 @@ fn buttons_of_the_panel_are_pressed_with_the_mouse() {
     });
     let Some((_gpu, sat)) = sat else { return };
     assert_eq!(sat.ended_in, None);
-    let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
-    let starts = switches.filter(|switch| switch.key == key::START);
-    assert_eq!(starts.count(), 1);
+    assert_eq!(switched(&sat.track, key::START), 1);
     assert_eq!(sat.outcome.attempts.len(), 2);
     // A press on the panel grips nothing.
     assert!(
@@ -196,9 +195,7 @@ fn a_key_that_loses_work_is_held() {
         return;
     };
     assert_eq!(sat.ended_in, None);
-    let switches = sat.track.frames.iter().flat_map(|frame| &frame.scenario);
-    let starts = switches.filter(|switch| switch.key == key::START);
-    assert_eq!(starts.count(), 1);
+    assert_eq!(switched(&sat.track, key::START), 1);
 }
 
 /// Takes a flask by key with the active hand, which keeps it.

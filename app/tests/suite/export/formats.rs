@@ -6,7 +6,8 @@ use serde_json::Value;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_tests::readers::Readers;
 
-use crate::export::{number, object};
+use crate::VITRIOL;
+use crate::export::number;
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
@@ -26,12 +27,12 @@ fn other_programs_read_what_is_there() {
     };
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let replayed = object(
+    let replayed = VITRIOL.object(
         here,
         "replay two-flasks --scene acid-into-water --preset fast --seconds 0.1 --no-video --out run",
     );
-    object(here, "pages --out pages");
-    let exported = object(
+    VITRIOL.object(here, "pages --out pages");
+    let exported = VITRIOL.object(
         here,
         "export run --format vtk,ply,gltf,csv,parquet,mcap --rate 20 --out out",
     );
@@ -182,7 +183,7 @@ fn other_programs_read_what_is_there() {
     }
 
     // The recording is a track too, and replays to the recorded state.
-    let again = object(here, "replay out/recording.mcap --no-video --out again");
+    let again = VITRIOL.object(here, "replay out/recording.mcap --no-video --out again");
     assert_eq!(again["state_hash"], replayed["state_hash"]);
     assert_eq!(again["recording"]["same_state"], true);
 }

@@ -8,20 +8,21 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_tests::editors::encodings;
 use vitriol_tests::program::words;
 
-use crate::export::{number, object};
+use crate::VITRIOL;
+use crate::export::number;
 
 /// Tables of a run's folder come from its report, without a device, and say what it says; a track's are simulated.
 #[test]
 fn tables_of_a_run_are_its_report() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    object(
+    VITRIOL.object(
         here,
         "replay hands-off --scene beaker --preset fast --seconds 0.02 --no-video --out run",
     );
-    let done = object(here, "export run --format csv --out tables");
+    let done = VITRIOL.object(here, "export run --format csv --out tables");
     assert!(done["state_hash"].is_null(), "nothing was simulated");
-    object(
+    VITRIOL.object(
         here,
         "export hands-off --scene beaker --preset fast --seconds 0.02 --format csv --out simulated",
     );
@@ -34,7 +35,7 @@ fn tables_of_a_run_are_its_report() {
     let plain = read("run/report.json");
     for (number, bytes) in encodings(&plain).into_iter().enumerate() {
         fs::write(here.join("run/report.json"), bytes).unwrap();
-        object(
+        VITRIOL.object(
             here,
             &format!("export run --format csv --out again-{number}"),
         );
@@ -64,7 +65,7 @@ fn tables_of_a_run_are_its_report() {
 fn a_scaled_scene_is_exported_at_its_real_size() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let exported = object(
+    let exported = VITRIOL.object(
         here,
         "export hands-off --scene single-dilution --preset fast --solver 4x3 --seconds 0.04 --format vtk,mcap --rate 1 --out out",
     );
@@ -103,7 +104,7 @@ fn a_scaled_scene_is_exported_at_its_real_size() {
         "{}",
         volumes[0]
     );
-    let again = object(here, "replay out/recording.mcap --no-video --out again");
+    let again = VITRIOL.object(here, "replay out/recording.mcap --no-video --out again");
     assert_eq!(again["state_hash"], exported["state_hash"]);
     assert_eq!(again["solver"]["substeps"], 4);
     assert_eq!(again["recording"]["same_state"], true);

@@ -5,7 +5,8 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::export::{number, object};
+use crate::VITRIOL;
+use crate::export::number;
 
 /// A time that was written, which has nine decimals at most: a sum of steps such as 0.033333333333333 s has none of another format's.
 fn nanoseconds(seconds: f64) -> u64 {
@@ -25,11 +26,11 @@ fn between(file: &[u8], before: &str, after: &str) -> f64 {
 fn a_state_has_one_time_in_all_formats() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    object(
+    VITRIOL.object(
         here,
         "replay hands-off --scene beaker --preset fast --seconds 0.04 --no-video --out run",
     );
-    let exported = object(
+    let exported = VITRIOL.object(
         here,
         "export run --format vtk,ply,gltf,csv,mcap --rate 30 --out out",
     );

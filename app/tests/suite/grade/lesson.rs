@@ -165,7 +165,7 @@ fn a_class_is_graded_by_its_lesson() {
     );
 
     // The lesson's points come first, for people and in the browser.
-    let output = VITRIOL.run(here, &[&["grade", "."], &BY[..]].concat());
+    let output = VITRIOL.run(here, "grade . --lesson dilute --mode free");
     let told = String::from_utf8(output.stdout).unwrap();
     let heads: Vec<_> = told.lines().next().unwrap().split("  ").collect();
     let heads: Vec<_> = heads.into_iter().map(str::trim).collect();
@@ -250,10 +250,7 @@ fn a_lesson_of_another_scene_or_without_the_mode_is_refused() {
     let mode = ["--lesson", "dilute", "--mode", "examination"];
     assert!(refused(&mode).contains("guided, free"));
     assert!(refused(&["--lesson", "nothing.toml"]).contains("nothing.toml"));
-    let output = VITRIOL.run(
-        folder.path(),
-        &["grade", ".", "--scene", "beaker", "--mode", "free"],
-    );
+    let output = VITRIOL.run(folder.path(), "grade . --scene beaker --mode free");
     assert_eq!(output.status.code(), Some(2));
 }
 
@@ -370,8 +367,7 @@ fn a_replay_judges_a_lesson() {
 fn a_track_says_which_lesson_it_went_through() {
     let folder = tempfile::tempdir().unwrap();
     put(folder.path(), "ada.mcap", &taught(&progress(None)));
-    let told = VITRIOL.json(folder.path(), &["track", "ada.mcap"]);
-    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let told = VITRIOL.object(folder.path(), "track ada.mcap");
     let made: BTreeMap<String, String> =
         serde_json::from_value(told["parameters"].clone()).unwrap();
     assert_eq!(

@@ -90,9 +90,9 @@ fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
     let essay = here.join("class/Ada/essay.docx");
     assert_eq!(class.passed_over, [essay.display().to_string()]);
     // Pages and results of a first call are no part of the class, wherever they lie.
-    let arguments = ["grade", "class", "--out", "class"];
+    let line = "grade class --out class";
     for _ in 0..2 {
-        let output = VITRIOL.run(here, &arguments);
+        let output = VITRIOL.run(here, line);
         let warned = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{warned}");
         for name in ["essay.docx", "Cut", "Empty"] {
@@ -103,10 +103,10 @@ fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
             "{warned}"
         );
     }
-    let strict = VITRIOL.run(here, &[&arguments[..], &["--strict"]].concat());
+    let strict = VITRIOL.run(here, &format!("{line} --strict"));
     assert_eq!(strict.status.code(), Some(2));
     // Where nothing is graded, the class fails without it.
-    let none = VITRIOL.run(here, &["grade", "class/Cut", "class/Empty"]);
+    let none = VITRIOL.run(here, "grade class/Cut class/Empty");
     assert_eq!(none.status.code(), Some(2));
 }
 
@@ -123,53 +123,21 @@ fn what_is_not_graded_is_told_in_the_teachers_language() {
     fs::write(short.join("pour.mcap"), &whole[..whole.len() - 20]).unwrap();
     // Of each language what is said of the essay, of the bad files, of another scene and of the short recording.
     let sentences = [
-        (
-            "en",
-            [
-                "passed over, since they are no recordings",
-                "not graded, for the causes",
-                "made with another scene: water-into-acid",
-                "breaks off after",
-            ],
-        ),
-        (
-            "de",
-            [
-                "übergangen, da es keine Aufnahmen sind",
-                "nicht bewertet, Gründe siehe Tabelle",
-                "mit einer anderen Szene aufgenommen: water-into-acid",
-                "bricht nach",
-            ],
-        ),
-        (
-            "es",
-            [
-                "omitidos, porque no son grabaciones",
-                "sin calificar, por las causas",
-                "hecha con otra escena: water-into-acid",
-                "se interrumpe después de",
-            ],
-        ),
-        (
-            "zh",
-            [
-                "已跳过，因为不是录制文件",
-                "未评分，原因见表格",
-                "录制时用的是另一个场景：water-into-acid",
-                "之后中断",
-            ],
-        ),
-    ];
+        "en; passed over, since they are no recordings; not graded, for the causes; made with another scene: water-into-acid; breaks off after",
+        "de; übergangen, da es keine Aufnahmen sind; nicht bewertet, Gründe siehe Tabelle; mit einer anderen Szene aufgenommen: water-into-acid; bricht nach",
+        "es; omitidos, porque no son grabaciones; sin calificar, por las causas; hecha con otra escena: water-into-acid; se interrumpe después de",
+        "zh; 已跳过，因为不是录制文件; 未评分，原因见表格; 录制时用的是另一个场景：water-into-acid; 之后中断",
+    ]
+    .map(|row| row.split_once("; ").unwrap());
     for (nth, (language, _)) in sentences.iter().enumerate() {
-        let scenes = ["--scene", "acid-into-water", "--scene", "hot-acid"];
-        let rest = ["--out", "out", "--json", "--language", *language];
-        let output = VITRIOL.run(here, &[&["grade", "class"][..], &scenes, &rest].concat());
+        let line = "grade class --scene acid-into-water --scene hot-acid --out out --json";
+        let output = VITRIOL.run(here, &format!("{line} --language {language}"));
         let class: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(class["taken"], if nth == 0 { 0 } else { 4 });
         let warned = String::from_utf8(output.stderr).unwrap();
         let told = format!("{warned}{}", class["lines"]);
         for (of, parts) in &sentences {
-            for part in parts {
+            for part in parts.split("; ") {
                 let is_own = of == language;
                 assert_eq!(told.contains(part), is_own, "{language}: {part}: {told}");
             }
@@ -212,8 +180,8 @@ fn the_table_of_a_whole_class_explains_itself() {
     thirty(here);
     let mut taken = "0";
     for language in [Language::En, Language::De, Language::Zh] {
-        let arguments = ["grade", "class", "--out", "out", "--language"];
-        let output = VITRIOL.run(here, &[&arguments[..], &[language.code()]].concat());
+        let line = format!("grade class --out out --language {language}");
+        let output = VITRIOL.run(here, &line);
         let warned = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{warned}");
         // One line of warning, which names both bad files.
@@ -442,8 +410,7 @@ fn the_page_sorts_in_a_browser() {
     unpack(here);
     class_of(here, &[]);
     let Some(mut tab) = Tab::new() else { return };
-    let page = here.join("out/grades.html").canonicalize().unwrap();
-    tab.go(&format!("file://{}", page.display()));
+    tab.open(&here.join("out/grades.html"));
     tab.until("document.readyState === 'complete' && !!document.querySelector('table.grades')");
     let mut sorted = |column: usize| {
         tab.eval(&format!(

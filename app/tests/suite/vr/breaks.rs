@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::vr::common::{Trouble, Worn, hash, heard, nobody, options, session_with};
+use crate::vr::common::{Trouble, Worn, hash, heard, run, switched};
 use crate::vr::loss::replayed;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Cause, What};
@@ -32,13 +32,10 @@ impl Trouble for StartsOver {
 }
 
 fn dropped(gpu: &Gpu, breakable: bool, frames: u64) -> (SessionOutcome, Track) {
-    let folder = tempfile::tempdir().unwrap();
     let text = vitriol_xr::track::builtin::text("dropped").unwrap();
     let track = Keyframes::parse(text, Path::new("dropped.toml")).unwrap();
     let mut headset = Worn::new(gpu, track.sample_track(), 45.0, frames, StartsOver);
-    let mut options = options(folder.path());
-    options.plan.breakable = breakable;
-    session_with(&mut headset, options, nobody())
+    run(&mut headset, |options| options.plan.breakable = breakable)
 }
 
 mod long {
@@ -50,8 +47,7 @@ mod long {
         let (outcome, track) = dropped(&gpu, false, ROUND - 8);
         assert_eq!(outcome.broken, 0);
         assert!(!outcome.world.is_broken(0));
-        let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        assert!(!switches.any(|it| it.key == key::GLASS));
+        assert_eq!(switched(&track, key::GLASS), 0);
     }
 
     /// It breaks on a bench that began anew as well; so does what was recorded.

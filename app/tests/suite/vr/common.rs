@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-use tracing::span::{Attributes, Id, Record};
-use tracing::{Event, Metadata, Subscriber};
+use tracing::{Event, Subscriber};
+use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Language;
 use vitriol_run::{Action, Scenes};
@@ -58,7 +58,7 @@ thread_local! {
 pub fn hearing<T>(f: impl FnOnce() -> T) -> T {
     // Of what came before on this thread.
     HEARD.take();
-    tracing::subscriber::with_default(Ear, f)
+    tracing::subscriber::with_default(tracing_subscriber::registry().with(Ear), f)
 }
 
 /// Does that once, in the middle of what the session does when it next logs a line with that target on this thread.
@@ -74,11 +74,8 @@ pub fn heard(target: &str) -> u64 {
 /// Hears what a session logs on its own thread.
 struct Ear;
 
-impl Subscriber for Ear {
-    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        metadata.target().starts_with("vitriol")
-    }
-    fn event(&self, event: &Event<'_>) {
+impl<S: Subscriber> Layer<S> for Ear {
+    fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
         let target = event.metadata().target().to_owned();
         let then = THEN.with_borrow_mut(|then| then.take_if(|(of, _)| *of == target));
         HEARD.with_borrow_mut(|heard| *heard.entry(target).or_default() += 1);
@@ -86,13 +83,6 @@ impl Subscriber for Ear {
             then();
         }
     }
-    fn new_span(&self, _: &Attributes<'_>) -> Id {
-        Id::from_u64(1)
-    }
-    fn record(&self, _: &Id, _: &Record<'_>) {}
-    fn record_follows_from(&self, _: &Id, _: &Id) {}
-    fn enter(&self, _: &Id) {}
-    fn exit(&self, _: &Id) {}
 }
 
 /// What goes wrong, or is pressed, in a session.
@@ -364,6 +354,23 @@ pub fn in_scene(folder: &Path, file: &Path) -> Options {
     let plan = &mut options.plan;
     plan.scene = plan.scenes.open(file.to_str().unwrap()).unwrap();
     options
+}
+
+/// A session in the small scene that nobody directs, with options that may be changed, to its end; and its recording.
+pub fn run(
+    headset: &mut dyn Headset,
+    change: impl FnOnce(&mut Options),
+) -> (SessionOutcome, Track) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut options = options(folder.path());
+    change(&mut options);
+    session_with(headset, options, nobody())
+}
+
+/// How often a recording has a switch of that key.
+pub fn switched(track: &Track, key: &str) -> usize {
+    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    switches.filter(|it| it.key == key).count()
 }
 
 /// A session to its end, and its recording.

@@ -14,7 +14,7 @@ use vitriol_tests::gpu;
 use vitriol_xr::track::Track;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose, Turn, View};
 
-use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, session_with};
+use crate::vr::common::{self, Trouble, Worn, hash, pour};
 use crate::vr::loss::replayed;
 use crate::vr::seen::{keep_rgb, read};
 
@@ -83,7 +83,6 @@ fn run_in(
     (frames, at): (u64, &[u64]),
     (scene, bare): (Option<&str>, Option<Vec3>),
 ) -> Session {
-    let folder = tempfile::tempdir().unwrap();
     let pictures = Pictures::default();
     let trouble = Looks {
         at: at.to_vec(),
@@ -92,13 +91,13 @@ fn run_in(
     };
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (RATE, frames), trouble);
-    let mut options = options(folder.path());
-    options.hints = hints;
-    if let Some(scene) = scene {
-        options.plan.scene = options.plan.scenes.open(scene).unwrap();
-        options.plan.preset = Preset::Fast;
-    }
-    let (outcome, track) = session_with(&mut headset, options, nobody());
+    let (outcome, track) = common::run(&mut headset, |options| {
+        options.hints = hints;
+        if let Some(scene) = scene {
+            options.plan.scene = options.plan.scenes.open(scene).unwrap();
+            options.plan.preset = Preset::Fast;
+        }
+    });
     let pictures = pictures.take();
     Session {
         outcome,

@@ -6,18 +6,15 @@ use vitriol_session::foveating::Foveating;
 use vitriol_tests::gpu;
 use vitriol_xr::Pose;
 
-use crate::vr::common::{Calm, Worn, nobody, options, pour, session_with};
+use crate::vr::common::{Calm, Worn, pour, run};
 use crate::vr::seen::Seen;
 
 const EXTENT: [u32; 2] = [640, 680];
 
 fn look(gpu: &Gpu, foveating: Foveating) -> (Seen, String) {
-    let folder = tempfile::tempdir().unwrap();
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 6), Calm);
-    let mut options = options(folder.path());
-    options.foveating = Some(foveating);
-    let (outcome, _) = session_with(&mut headset, options, nobody());
+    let (outcome, _) = run(&mut headset, |it| it.foveating = Some(foveating));
     assert_eq!(outcome.foveating, Some(foveating));
     let hash = outcome.world.snapshot().unwrap().solver.hash();
     let name = format!("foveating-{foveating:?}").to_lowercase();
@@ -29,7 +26,6 @@ fn look(gpu: &Gpu, foveating: Foveating) -> (Seen, String) {
 fn pictures_are_sharp_where_the_user_looks() {
     let gpu = gpu::device();
     let (sharp, _) = look(&gpu, Foveating::Off);
-    let folder = tempfile::tempdir().unwrap();
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Calm);
     // To the left and down of where the head is, half a metre off.
@@ -37,9 +33,7 @@ fn pictures_are_sharp_where_the_user_looks() {
     let turn = head.orientation * Quat::from_rotation_y(0.45) * Quat::from_rotation_x(-0.3);
     let gaze = Pose::new(head.transform_point(0.0315 * Vec3::X), turn);
     headset.inner.gaze = Some(gaze);
-    let mut options = options(folder.path());
-    options.foveating = Some(Foveating::Eye);
-    session_with(&mut headset, options, nobody());
+    run(&mut headset, |it| it.foveating = Some(Foveating::Eye));
     let foveated = Seen::last(&gpu, "foveating-eye", &headset);
     let place = gaze.transform_point(0.5 * Vec3::NEG_Z);
     let looked_at = head.inverse().transform_point(place);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::vr::common::{Calm, Trouble, Worn, hash, nobody, options, pour, session, session_with};
+use crate::vr::common::{self, Calm, Trouble, Worn, hash, pour};
 use crate::vr::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol_session::latch::Grip;
@@ -45,11 +45,10 @@ right = [
 #[test]
 fn a_flask_changes_hands_and_is_felt() {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let keyframes = Keyframes::parse(TRACK, Path::new("hands.toml")).unwrap();
     let frames = (45.0 * 2.39) as u64 + 1;
     let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, frames, Calm);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let (outcome, track) = common::run(&mut headset, |_| ());
     let felt = headset.felt;
     // Where it was at 2.1 s: the right hand has it.
     let until = track.frames.iter().filter(|it| it.time_ns <= 2_100_000_000);
@@ -145,11 +144,8 @@ mod long {
     fn one_press_grips_and_the_next_lets_go() {
         let gpu = gpu::device();
         let run = |grip: Grip, frames: u64| {
-            let folder = tempfile::tempdir().unwrap();
             let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, frames, Presses);
-            let mut options = options(folder.path());
-            options.grip = grip;
-            let (outcome, _) = session_with(&mut headset, options, nobody());
+            let (outcome, _) = common::run(&mut headset, |options| options.grip = grip);
             let world = &outcome.world;
             (world.holder(0), world.poses()[0].position.y)
         };
@@ -167,10 +163,9 @@ mod long {
     fn a_bare_hand_grips_what_it_closes_round() {
         let gpu = gpu::device();
         let run = |closes_to: f32, frames: u64| {
-            let folder = tempfile::tempdir().unwrap();
             let trouble = Bare { closes_to };
             let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, frames, trouble);
-            let (outcome, track) = session(&mut headset, folder.path(), nobody());
+            let (outcome, track) = common::run(&mut headset, |_| ());
             let world = &outcome.world;
             let found = (world.holder(0), world.poses()[0].position.y);
             let expected = hash(&outcome);

@@ -6,7 +6,7 @@ use vitriol_session::session::SessionOutcome;
 use vitriol_tests::gpu;
 use vitriol_xr::{Fov, Inset, InsetTargets, Pose, View, depth_extent};
 
-use crate::vr::common::{Calm, Worn, hash, nobody, options, pour, session_with};
+use crate::vr::common::{Calm, Worn, hash, pour, run};
 use crate::vr::seen::read;
 
 const EXTENT: [u32; 2] = [320, 340];
@@ -102,13 +102,10 @@ fn session(
     foveating: Foveating,
     wear: impl FnOnce(&mut Worn<Calm>),
 ) -> (Worn<Calm>, SessionOutcome) {
-    let folder = tempfile::tempdir().unwrap();
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(gpu, track, extent, (90.0, 5), Calm);
     wear(&mut headset);
-    let mut options = options(folder.path());
-    options.foveating = Some(foveating);
-    let (outcome, _) = session_with(&mut headset, options, nobody());
+    let (outcome, _) = run(&mut headset, |it| it.foveating = Some(foveating));
     (headset, outcome)
 }
 

@@ -8,7 +8,7 @@ use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pause, Pose, PoseFrame, Turn};
 
-use crate::vr::common::{Trouble, Worn, hash, nobody, pour, session};
+use crate::vr::common::{Trouble, Worn, hash, pour, run, switched};
 use crate::vr::loss::replayed;
 
 /// 1.6 s at 30 Hz: the flask is lifted, upright, and carried to the side.
@@ -102,17 +102,14 @@ impl Trouble for Leaping {
 /// What is left in the flask (kg), and how it moves (J), 0.4 s after the leap; and that the recording says the same.
 fn carried(how: How, leaps: usize) -> (f64, f64) {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let name = how.name();
     let trouble = Leaping { how, turns: 0 };
     let mut headset = Worn::new(&gpu, pour().sample_track(), 30.0, LEAP + 12, trouble);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let (outcome, track) = run(&mut headset, |_| ());
     let world = &outcome.world;
     assert_eq!(world.holder(0), Some(1), "{name}");
     let measured = world.measure().unwrap();
-    let placed = track.frames.iter().flat_map(|frame| &frame.scenario);
-    let placed = placed.filter(|switch| switch.key == key::PLACEMENT);
-    assert_eq!(placed.count(), 1 + leaps, "{name}");
+    assert_eq!(switched(&track, key::PLACEMENT), 1 + leaps, "{name}");
     let expected = hash(&outcome);
     assert_eq!(replayed(&gpu, track), expected, "{name}");
     (measured.in_flasks[0], measured.kinetic_energy)

@@ -2,7 +2,7 @@
 
 use crate::vr::common::{
     StartsOver, Trouble, Worn, carried, hash, nobody, options, options_where, pour, pour_at_once,
-    session, session_with, when_heard,
+    run, session_with, switched, when_heard,
 };
 use std::sync::mpsc::channel;
 use vitriol_gpu::Gpu;
@@ -240,9 +240,7 @@ fn a_device_lost_at_a_scene_change_loses_neither_scene() {
     let (outcome, track) = session_with(&mut headset, options(folder.path()), decisions);
     assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
     assert_eq!(outcome.attempts.len(), 2);
-    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    let starts = switches.filter(|it| it.key == key::START);
-    assert_eq!(starts.count(), 1);
+    assert_eq!(switched(&track, key::START), 1);
     assert_eq!(replayed(&second, track), hash(&outcome));
 }
 
@@ -267,9 +265,8 @@ impl Trouble for Off {
 #[test]
 fn nothing_happens_while_the_headset_is_off() {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 40, Off(0));
-    let (outcome, _) = session(&mut headset, folder.path(), nobody());
+    let (outcome, _) = run(&mut headset, |_| ());
     // 39 intervals less the one that was not seen.
     assert_eq!(outcome.steps, 38);
     assert_eq!(outcome.slowed, 0.0);
@@ -285,7 +282,6 @@ mod long {
     #[test]
     fn lost_devices_in_mid_pour_lose_nothing() {
         let devices: Vec<_> = (0..4).map(|_| gpu::another_device(|_| {})).collect();
-        let folder = tempfile::tempdir().unwrap();
         let breaks = Breaks {
             devices: devices.iter().map(|device| Gpu::clone(device)).collect(),
             before_steps: 70,
@@ -300,7 +296,7 @@ mod long {
             .map(|device| Gpu::clone(device))
             .collect();
         headset.inner = headset.inner.reopening(move || Ok(others.remove(0)));
-        let (outcome, track) = session(&mut headset, folder.path(), nobody());
+        let (outcome, track) = run(&mut headset, |_| ());
         assert_eq!((outcome.devices_lost, outcome.renewals), (3, 3));
         // No step in the first frame, none in those that recentre, and none in the first after each loss.
         assert_eq!(outcome.steps, 3 * (170 - 1 - 2 - 3));
@@ -320,7 +316,6 @@ mod long {
     fn a_device_lost_with_its_runtime_spills_nothing() {
         for in_a_frame in [false, true] {
             let (first, second) = (gpu::another_device(|_| {}), gpu::another_device(|_| {}));
-            let folder = tempfile::tempdir().unwrap();
             let both = Both {
                 device: Gpu::clone(&first),
                 then: Gpu::clone(&second),
@@ -330,7 +325,7 @@ mod long {
             let mut headset = Worn::new(&first, pour().sample_track(), 30.0, GONE + 10, both);
             let then = Gpu::clone(&second);
             headset.inner = headset.inner.reopening(move || Ok(then.clone()));
-            let (outcome, track) = session(&mut headset, folder.path(), nobody());
+            let (outcome, track) = run(&mut headset, |_| ());
             assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
             let measured = outcome.world.measure().unwrap();
             assert!(measured.in_flasks[0] > 0.1499, "{in_a_frame}: {measured:?}");

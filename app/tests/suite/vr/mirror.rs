@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, scene};
+use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, scene, switched};
 use crate::vr::loss::replayed;
 use crate::vr::seen::read;
 use vitriol_run::track::key;
@@ -329,9 +329,7 @@ mod long {
         // A window that is closed is nothing to complain of.
         assert!(!log.contains("mirror"), "{log}");
         let track = load(recording.to_str().unwrap()).unwrap();
-        let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        let starts = switches.filter(|switch| switch.key == key::START);
-        assert_eq!(starts.count(), 1);
+        assert_eq!(switched(&track, key::START), 1);
 
         // `q`, twice: the end.
         let program = Program::start(&scene, &[]);

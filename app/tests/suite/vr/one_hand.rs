@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::vr::common::{Trouble, Worn, heard, nobody, session};
-use crate::vr::panel::{on_panel, place_of, press_from};
+use crate::vr::common::{Trouble, Worn, heard, run};
+use crate::vr::panel::{decisions, on_panel, place_of, press_from};
 use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_run::Action;
-use vitriol_run::choices::{self, CHOICES};
+use vitriol_run::choices::CHOICES;
 use vitriol_run::track::key;
 use vitriol_session::decision::Decision;
 use vitriol_session::handle::middles;
@@ -111,7 +111,6 @@ rate_hz = 90
 head = [ { t = 0.0, position = [0.0, 1.20, 0.0] } ]
 "#;
     let track = Keyframes::parse(TRACK, Path::new("sits.toml")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
     let scene = CHOICES[4].scene;
     let trouble = Alone {
         side,
@@ -119,7 +118,7 @@ head = [ { t = 0.0, position = [0.0, 1.20, 0.0] } ]
         scene: place_of(gpu, &Decision::Act(Action::Scene(scene.into()))),
     };
     let mut headset = Worn::new(gpu, track.sample_track(), 45.0, ENDS, trouble);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let (outcome, track) = run(&mut headset, |_| ());
     let switches: Vec<_> = track
         .frames
         .iter()
@@ -198,19 +197,7 @@ fn either_arm_reaches_all() {
 fn either_hand_presses_each_button_from_its_place() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    let scenes =
-        choices::on_panel().map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
-    let scenes: Vec<Decision> = scenes.collect();
-    let all = [
-        &scenes[..],
-        &[
-            Decision::Act(Action::Start(None)),
-            Decision::Toggle,
-            Decision::Recentre,
-        ],
-    ]
-    .concat();
-    for decision in all {
+    for decision in decisions() {
         let button = place_of(&gpu, &decision);
         for shoulder in SHOULDERS {
             let from = shoulder + Vec3::new(0.0, -0.25, -0.30);

@@ -1,8 +1,6 @@
 //! From a driven track through a session to its recording and that recording's replay.
 
-use crate::vr::common::{
-    Calm, Worn, apart, carried, hash, nobody, options, pour, session, session_with,
-};
+use crate::vr::common::{Calm, Worn, apart, carried, hash, pour, run};
 use crate::vr::seen::keep;
 use image::ColorType;
 use std::path::Path;
@@ -94,10 +92,9 @@ fn meets_its_lesson(verdict: &Verdict) {
 #[test]
 fn a_slow_display_is_shown_in_slow_motion_and_never_more_steps() {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     // Nine steps would be due in each frame.
     let mut headset = Worn::new(&gpu, pour().sample_track(), 10.0, 12, Calm);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let (outcome, track) = run(&mut headset, |_| ());
     assert_eq!(outcome.steps, u64::from(MOST_STEPS) * 11);
     let shown = 11.0 / 10.0;
     // Display times are whole nanoseconds.
@@ -111,9 +108,8 @@ fn a_slow_display_is_shown_in_slow_motion_and_never_more_steps() {
 #[test]
 fn what_is_shown_is_what_was_drawn() {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 20, Calm);
-    session(&mut headset, folder.path(), nobody());
+    run(&mut headset, |_| ());
     assert_eq!(headset.shown.len(), 20);
     let targets = &headset.inner.targets;
     let colour: Vec<u8> = gpu::read_back(&gpu, &targets.colour).get().unwrap();
@@ -141,7 +137,6 @@ mod long {
     #[test]
     fn a_poured_flask_is_recorded_and_replays() {
         let gpu = gpu::device();
-        let folder = tempfile::tempdir().unwrap();
         // A moment longer, in which the flask stands.
         let last = "{ t = 9.6, position = [-0.084, 0.845, -0.330] },";
         let text = vitriol_xr::track::builtin::text("two-flasks").unwrap();
@@ -151,13 +146,12 @@ mod long {
         let keyframes = Keyframes::parse(&longer, Path::new("longer.toml")).unwrap();
         // Three steps in each frame, the last ones of the track included.
         let mut headset = Worn::new(&gpu, keyframes.sample_track(), 30.0, 306, Calm);
-        let mut options = options(folder.path());
-        options.course = Some(Course {
+        let course = Course {
             lesson: lesson(),
             mode: Mode::Free,
             language: Language::En,
-        });
-        let (outcome, track) = session_with(&mut headset, options, nobody());
+        };
+        let (outcome, track) = run(&mut headset, |options| options.course = Some(course));
         meets_its_lesson(outcome.verdict.as_ref().unwrap());
         assert_eq!(outcome.steps, 3 * 305);
         assert_eq!(outcome.slowed, 0.0);

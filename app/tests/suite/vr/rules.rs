@@ -5,7 +5,7 @@
 use std::sync::mpsc::{Sender, channel};
 
 use crate::vr::common::{
-    Calm, Trouble, Worn, heard, hearing, left_to, nobody, options, pour, session,
+    Calm, Trouble, Worn, heard, hearing, left_to, options, pour, run, session, switched,
 };
 use glam::{Quat, Vec2, Vec3};
 use vitriol_gpu::Gpu;
@@ -123,8 +123,7 @@ fn nothing_waits_for_the_device_within_a_frame() {
     // A bench is built and moved to on the way.
     let mut headset = Strict::new(&gpu, 60, Starts(sender));
     let (_, track) = session(&mut headset, folder.path(), decisions);
-    let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    assert!(switches.any(|switch| switch.key == key::START));
+    assert!(switched(&track, key::START) > 0);
     // Between frames it waits for the picture before the last, in all frames but the first ones.
     let waited = waits() - headset.within;
     assert!(waited > 50, "{waited} waits were heard of");
@@ -159,9 +158,8 @@ fn a_bench_waits_twice_for_the_device_and_its_like_compiles_nothing() {
 #[test]
 fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
     let mut headset = Strict::new(&gpu, 5, Calm);
-    session(&mut headset, folder.path(), nobody());
+    run(&mut headset, |_| ());
     let shown = *headset.inner.shown.last().unwrap();
     let depth = headset.inner.inner.targets.depth.as_ref().unwrap();
     let depth: Vec<f32> = gpu::read_back(&gpu, depth).get().unwrap();

@@ -12,7 +12,7 @@ use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, Pose, View};
 
-use crate::vr::common::{Calm, Trouble, Worn, nobody, options, pour, session, session_with};
+use crate::vr::common::{Calm, Trouble, Worn, pour, run};
 
 const EXTENT: [u32; 2] = [640, 680];
 
@@ -73,12 +73,11 @@ fn look(gpu: &Gpu, name: &str, hands: [Hand; 2]) -> (Seen, Vec<[u8; 4]>) {
 /// The same with the head bent by so much, degrees.
 fn look_down(gpu: &Gpu, name: &str, hands: [Hand; 2], bent: f32) -> (Seen, Vec<[u8; 4]>) {
     let text = TRACK.replace("PITCH", &format!("{:.1}", -bent));
-    let folder = tempfile::tempdir().unwrap();
     let track = Keyframes::parse(&text, Path::new("looks.toml"))
         .unwrap()
         .sample_track();
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 4), Looks { hands });
-    let (_, _) = session(&mut headset, folder.path(), nobody());
+    run(&mut headset, |_| ());
     let shown = headset.shown.last().unwrap();
     assert_eq!(shown.panel.map(|(_, width)| width), Some(SIZE[0]));
     let panel = headset.inner.targets.panel.clone().unwrap();
@@ -101,6 +100,12 @@ impl Seen {
             pixels,
             view,
         }
+    }
+
+    /// Whether a ray is before everything else.
+    fn has_ray(&self) -> bool {
+        let mut pixels = self.pixels.iter();
+        pixels.any(|pixel| is_amber(*pixel) && pixel[3] == 255)
     }
 
     /// Where the eye was in the stage.
@@ -188,13 +193,7 @@ fn the_panel_is_in_the_picture_and_seen_through_it() {
         }
     }
     assert_eq!((through, off), (39 * 39, 0));
-    // No ray: nobody points.
-    assert!(
-        !seen
-            .pixels
-            .iter()
-            .any(|pixel| is_amber(*pixel) && pixel[3] == 255)
-    );
+    assert!(!seen.has_ray(), "nobody points");
 }
 
 /// A hand before the panel is seen, and neither the panel nor its layer there. One behind it is not.
@@ -213,29 +212,23 @@ fn a_hand_before_the_panel_is_seen() {
         .flat_map(|x| places.map(|y| Vec3::new(*x, y, 0.0)));
     let gloves = around.filter(|aside| seen.at(place + *aside).unwrap().1[3] == 255);
     assert!(gloves.count() > 12);
-    let covered = (seen.pixels.iter().zip(&without.pixels))
-        .filter(|(with, without)| with[3] == 255 && without[3] == 0)
-        .count();
+    let covers = |seen: &Seen| {
+        let pairs = seen.pixels.iter().zip(&without.pixels);
+        let covered = pairs.filter(|(with, without)| with[3] == 255 && without[3] == 0);
+        covered.count()
+    };
+    let covered = covers(&seen);
     // Some 90 by 190 mm at 0.65 m, of 0.72 by 0.56 m at 0.8 m.
     let whole = without.pixels.iter().filter(|pixel| pixel[3] == 0).count();
     let share = covered as f32 / whole as f32;
     assert!((0.03..0.20).contains(&share), "{covered} of {whole}");
-    assert!(
-        !seen
-            .pixels
-            .iter()
-            .any(|pixel| is_amber(*pixel) && pixel[3] == 255),
-        "no ray"
-    );
+    assert!(!seen.has_ray());
     // Behind it a hand hides nothing.
     let place = on_panel(0.3, -0.1, -0.1);
     let turn = hand.stage_from_grip.orientation;
     hand.stage_from_grip = Pose::new(place, turn);
     let (seen, _) = look(&gpu, "hand-behind-panel", [Hand::default(), hand]);
-    let covered = (seen.pixels.iter().zip(&without.pixels))
-        .filter(|(with, without)| with[3] == 255 && without[3] == 0)
-        .count();
-    assert_eq!(covered, 0);
+    assert_eq!(covers(&seen), 0);
 }
 
 /// Seen by who looks down at the bench, and lit while a hand is at it.
@@ -277,12 +270,9 @@ mod long {
     fn the_room_that_is_asked_for_is_seen() {
         let gpu = gpu::device();
         let mean = |room: Option<PictureRoom>| {
-            let folder = tempfile::tempdir().unwrap();
             let track = pour().sample_track();
             let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 4), Calm);
-            let mut options = options(folder.path());
-            options.plan.room = room;
-            let (outcome, _) = session_with(&mut headset, options, nobody());
+            let (outcome, _) = run(&mut headset, |options| options.plan.room = room);
             let drawn = outcome.world.scene().picture.room;
             assert_eq!(drawn, room.unwrap_or(PictureRoom::Bare));
             let name = format!("room-{}", drawn.name());
@@ -318,11 +308,6 @@ mod long {
             "no-ray",
             [Hand::default(), pointing(from, on_panel(-1.1, 0.2, 0.0))],
         );
-        assert!(
-            !seen
-                .pixels
-                .iter()
-                .any(|pixel| is_amber(*pixel) && pixel[3] == 255)
-        );
+        assert!(!seen.has_ray());
     }
 }

@@ -2,8 +2,7 @@
 
 use super::contact::{Bar, LATTICE_SHARE, erf};
 use super::{Random, glass_of_water};
-use crate::chemistry::paper::{Boiling, Diffusion, Dilution};
-use crate::chemistry::thomsen;
+use crate::chemistry::paper::{Diffusion, Dilution};
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::reference::Reference;
@@ -113,97 +112,6 @@ fn conservative_diffusion_does_not_drift_where_the_literal_does() {
 }
 
 #[test]
-fn heat_in_the_glass_is_the_enthalpy_of_dilution() {
-    let parameters = super::parameters();
-    // D such that a pair's share is as in the paper's world.
-    let scale = 0.0025f64.powi(2) / 0.05f64.powi(2) * 4.0;
-    let law = DilutionLaw {
-        heat: Dilution::new(17.0, parameters.particle_mass()),
-        temperature_diffusivity: 0.01 * scale,
-        acid_diffusivity: 0.007 * scale,
-        // A wall at the liquid's own temperature would still cool it.
-        ambient: 20.0,
-        ..law(Diffusion::Conservative, &parameters)
-    };
-    let mut reference = glass(parameters, law, |at| {
-        (20.0, if at.y > 0.006 { 0.98 } else { 0.0 })
-    });
-    // Without walls in reach nothing but the heat of solution changes ΣT.
-    reference.surroundings =
-        super::in_the_open(reference.parameters.clone(), Vec::new()).surroundings;
-    reference.membership.fill(None);
-    let neighbours = reference.neighbours(&reference.positions);
-    let before = paper(&reference).clone();
-    for _ in 0..100 {
-        reference.dilute(&neighbours);
-    }
-    let after = paper(&reference);
-    let drift = sum(&after.acid) / sum(&before.acid) - 1.0;
-    assert!(drift.abs() < 1e-12, "{drift}");
-    let heat =
-        |paper: &ReferencePaper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
-    let released = heat(after) - heat(&before);
-    let warming = (sum(&after.temperatures) - sum(&before.temperatures)) * law.heat.heat_capacity();
-    assert!(released > 0.0);
-    // ΣT loses digits to 100 steps' rounding; 1e-6 is asked for.
-    assert!(
-        (warming / released - 1.0).abs() < 1e-6,
-        "{warming} {released}"
-    );
-}
-
-#[test]
-fn all_water_and_all_acid_stay_as_they_are() {
-    for acid in [0.0, 1.0] {
-        let parameters = super::parameters();
-        let law = law(Diffusion::Conservative, &parameters);
-        let mut reference = glass(parameters, law, |_| (20.0, acid));
-        for _ in 0..3 {
-            reference.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
-        }
-        let paper = paper(&reference);
-        // To the bit: no difference, no exchange; walls are at 20 °C.
-        assert!(paper.acid.iter().all(|&c| c == acid));
-        assert!(paper.temperatures.iter().all(|&t| t == 20.0));
-    }
-}
-
-#[test]
-fn one_particle_of_acid_in_water_and_any_diffusivity() {
-    for diffusivity in [1e-6, 1.0, 1e300] {
-        let parameters = super::parameters();
-        let law = DilutionLaw {
-            temperature_diffusivity: diffusivity,
-            acid_diffusivity: diffusivity,
-            heat: Dilution::new(17.0, parameters.particle_mass()),
-            ..law(Diffusion::Conservative, &parameters)
-        };
-        let mut reference = glass(parameters, law, |_| (20.0, 0.0));
-        let Some(ReferenceChemistry::Paper(start)) = &mut reference.chemistry else {
-            panic!("has the paper's chemistry")
-        };
-        start.acid[150] = 1.0;
-        for _ in 0..4 {
-            reference.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
-            let paper = paper(&reference);
-            assert!((sum(&paper.acid) - 1.0).abs() < 1e-6, "{diffusivity}");
-            assert!(paper.acid.iter().all(|c| (0.0..=1.0).contains(c)));
-            // All the heat there is, in one particle: k_d·762 kJ/kg·m.
-            let most = thomsen::secant(0.0, 0.0) / 4.184 * 17.0 * 1000.0 * 0.0025f64.powi(3);
-            let within = 20.0 - 1e-9..=20.0 + most;
-            assert!(
-                paper.temperatures.iter().all(|t| within.contains(t)),
-                "{diffusivity}"
-            );
-        }
-        assert_eq!(reference.removed, 0);
-        // A pair gives 1/72 a substep at most; some 20 are near, for 32.
-        let left = paper(&reference).acid[150];
-        assert!(left < 1.0 && (diffusivity < 1.0 || left < 0.1), "{left}");
-    }
-}
-
-#[test]
 fn walls_take_the_liquid_to_ambient_without_overshoot() {
     for (diffusivity, end) in [(1e-5, 125.0), (1e300, 20.001)] {
         let parameters = super::parameters();
@@ -257,25 +165,4 @@ fn a_wall_of_the_map_cools_like_one_of_particles() {
             "{height} {by_map} {by_particles}"
         );
     }
-}
-
-#[test]
-fn scenes_of_the_paper_start_with_their_chemistry() {
-    let of = |name: &str| {
-        let scene = Scene::builtin(name).unwrap();
-        ReferencePaper::of_scene(&scene, Some(1), Diffusion::default(), Boiling::default()).unwrap()
-    };
-    assert!(of("beaker").is_none());
-    let soup = of("tomato-soup").unwrap();
-    assert!(soup.dilution.is_none() && soup.boiling.is_some());
-    let dilution = of("single-dilution").unwrap();
-    assert!(dilution.dilution.is_some() && dilution.boiling.is_some());
-    assert!(dilution.acid.iter().any(|&c| c > 0.9) && dilution.acid.contains(&0.0));
-    let mut scene = Scene::builtin("tomato-soup").unwrap();
-    if let Some(paper) = &mut scene.paper {
-        paper.T_B = Some(-5.0);
-    }
-    assert!(
-        ReferencePaper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err()
-    );
 }

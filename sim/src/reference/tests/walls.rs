@@ -3,7 +3,6 @@
 use super::*;
 use crate::flask::{Side, VolumeMap, particles};
 use crate::reference::motion::constrain;
-use crate::reference::placement::Motion;
 use crate::reference::surroundings::Slab;
 use crate::surface_tension::SurfaceTension;
 use glam::{DVec2, Vec3};
@@ -120,7 +119,7 @@ fn boundary_particles_and_maps_make_up_the_density_alike() {
         for _ in 0..10 {
             water.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
         }
-        assert_eq!(water.masses().elsewhere, 0.0);
+        assert!(water.membership.iter().all(Option::is_some));
         (start, water.density_error().mean)
     };
     let (maps, maps_error) = density(Vessel::with_maps(profile.clone(), H));
@@ -167,50 +166,4 @@ fn table_and_floor_hold() {
     assert_eq!(put([0.31, 0.47, 0.2], [0.29, 0.48, 0.2]), [0.31, 0.48, 0.2]);
     assert_eq!(put([0.31, 0.47, 0.2], [0.32, 0.45, 0.2]), [0.32, 0.45, 0.2]);
     assert_eq!(put([0.5, 0.1, 0.2], [0.5, -3.0, 0.2]), [0.5, margin, 0.2]);
-    // A puddle on the table comes to rest there.
-    let drops = (0..27).map(|i| {
-        DVec3::new(f64::from(i % 3), f64::from(i / 9), f64::from(i / 3 % 3)) * D
-            + DVec3::new(0.1, 0.5 + 0.5 * D, 0.2)
-    });
-    // A wide one: nothing holds the puddle together, and it does not reach the edge.
-    let wide = Slab {
-        size: DVec2::splat(2.0),
-        ..table
-    };
-    let surroundings = Surroundings::new(Vec::new(), Some(wide), Some(0.0), H);
-    let mut puddle = Reference::new(parameters(), surroundings, drops.collect(), &[]);
-    for _ in 0..45 {
-        puddle.step(&[], &[]);
-    }
-    let lowest = puddle.positions.iter().map(|x| x.y).fold(1.0, f64::min);
-    let highest = puddle.positions.iter().map(|x| x.y).fold(0.0, f64::max);
-    assert!(
-        lowest > 0.5 && highest < 0.5 + 2.0 * D,
-        "{lowest} {highest}"
-    );
-}
-
-#[test]
-fn still_glass_slows_and_moving_glass_drags() {
-    let p = Parameters {
-        gravity: [0.0; 3],
-        viscosity: 0.3,
-        ..parameters()
-    };
-    let mut drop = glass_of_water(p, 1, Pose::IDENTITY);
-    drop.positions = vec![DVec3::new(0.0, 0.002 + 0.2 * H, 0.0)];
-    drop.velocities = vec![DVec3::X * 0.01];
-    drop.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
-    let slowed = drop.velocities[0].x;
-    assert!(slowed > 0.0 && slowed < 0.0095, "{slowed}");
-    let to = Pose::from_position(Vec3::new(0.001, 0.0, 0.0));
-    drop.step(&[Pose::IDENTITY], &[to]);
-    // The glass moves at 0.09 m/s.
-    assert!(
-        drop.velocities[0].x > slowed + 0.005,
-        "{}",
-        drop.velocities[0].x
-    );
-    let motion = Motion::of_substep(Pose::IDENTITY, to, 7, 8, 1.0 / 720.0);
-    assert!((motion.velocity_at(DVec3::ZERO).x - 0.09).abs() < 1e-5);
 }

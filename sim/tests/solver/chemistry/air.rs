@@ -5,13 +5,11 @@ use super::setup::*;
 use crate::common::*;
 use glam::{DVec3, Quat, Vec3};
 use std::f64::consts::PI;
-use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
-use vitriol_sim::measure::{Ledger, measure_heat};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Ground, Particle, Solver};
+use vitriol_sim::solver::{Ground, Particle};
 use vitriol_tests::gpu;
 
 /// Density of air at 20 °C, kg/m³.
@@ -37,13 +35,7 @@ fn pour(spacing: f64, length: f64, speed: f64, level: f64) -> Pour {
 fn pour_beside(spacing: f64, length: f64, speed: f64, level: f64, aside: f64) -> Pour {
     let profile = Profile::new(&[[0.0, 0.025], [0.16, 0.025]], 0.002).unwrap();
     let scale = spacing / D;
-    let law = Physical {
-        bubbles: bubbly().bubbles.map(|bubbles| Bubbles {
-            air: true,
-            ..bubbles
-        }),
-        ..bubbly()
-    };
+    let law = bubbling(bubbly(), |it| it.air = true);
     let p = Parameters {
         spacing,
         support_radius: H * scale,
@@ -52,16 +44,7 @@ fn pour_beside(spacing: f64, length: f64, speed: f64, level: f64, aside: f64) ->
         ..parameters()
     };
     let count = PI * 0.025f64.powi(2) * level / spacing.powi(3);
-    let filled =
-        vitriol_sim::fill::fill(&profile, Pose::IDENTITY, count as usize, spacing, Some(1));
-    let mut particles: Vec<_> = filled
-        .unwrap()
-        .into_iter()
-        .map(|position| Particle {
-            flask: Some(0),
-            ..drop_at(position, DVec3::ZERO)
-        })
-        .collect();
+    let mut particles = water_of(&profile, Pose::IDENTITY, spacing, count as usize);
     let mut falling = Vec::new();
     let across = (3e-3 / spacing) as i32 + 1;
     for k in 0..(length / spacing) as i32 {
@@ -103,12 +86,6 @@ fn by_bin(pour: &Pour) -> f64 {
         0.04 * froude.powf(0.28) * (fall / pour.width).powf(0.4) * volume
     };
     pour.falling.iter().map(of).sum()
-}
-
-fn ledger(solver: &Solver) -> Ledger {
-    let state = solver.snapshot().unwrap();
-    let heat = measure_heat(solver.parameters(), &state);
-    heat.and_then(|heat| heat.ledger).unwrap()
 }
 
 /// mL at 20 °C of a mass of air.

@@ -11,7 +11,7 @@ use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Particle, Solver};
+use vitriol_sim::solver::Solver;
 use vitriol_tests::gpu;
 
 pub fn of(law: Physical, parameters: Parameters) -> Parameters {
@@ -336,13 +336,10 @@ fn a_bubble_rises_to_the_surface_and_bursts_when_its_film_has_drained() {
         (0.6 * D, 1e-3, None),
         (D, 1e-3, Some(0.1)),
     ] {
-        let mut law = bubbly();
-        if let Some(bubbles) = &mut law.bubbles {
-            bubbles.foam_time = foam_time;
-        }
+        let law = bubbling(bubbly(), |it| it.foam_time = foam_time);
         let profile = Profile::new(&[[0.0, 0.02], [0.06, 0.02]], 0.002).unwrap();
         let count = (PI * 0.02f64.powi(2) * DEEP / spacing.powi(3)) as usize;
-        let mut particles = water_of(&profile, spacing, count);
+        let mut particles = water_of(&profile, Pose::IDENTITY, spacing, count);
         fill(&mut particles, |_| (100.0, 0.0));
         let p = Parameters {
             spacing,
@@ -400,16 +397,6 @@ fn a_bubble_rises_to_the_surface_and_bursts_when_its_film_has_drained() {
             "{mass}, {after:?}"
         );
     }
-}
-
-/// `count` particles of water of that spacing (m) in a vessel.
-fn water_of(profile: &Profile, spacing: f64, count: usize) -> Vec<Particle> {
-    let places = vitriol_sim::fill::fill(profile, Pose::IDENTITY, count, spacing, Some(1));
-    let at = |at| Particle {
-        flask: Some(0),
-        ..drop_at(at, DVec3::ZERO)
-    };
-    places.unwrap().into_iter().map(at).collect()
 }
 
 /// A bubble in the corner of a conical flask, where glass takes four fifths of what is around it, does not burst for that.

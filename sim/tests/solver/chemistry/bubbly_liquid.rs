@@ -6,12 +6,11 @@ use crate::common::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_gpu::{Buffer, Gpu, QueueKind};
-use vitriol_sim::chemistry::bubbles::Bubbles;
-use vitriol_sim::chemistry::{Chemistry, Physical};
+use vitriol_sim::chemistry::Chemistry;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Particle, Solver, SolverState};
+use vitriol_sim::solver::{Solver, SolverState};
 use vitriol_tests::gpu;
 
 /// A column 26 mm wide of water at 100 °C at rest, 100 mm deep with 3,300 particles, whose bubbles last as long as the test.
@@ -19,14 +18,9 @@ fn column(device: &Gpu, count: usize) -> Solver {
     let profile = Profile::new(&[[0.0, 0.013], [0.16, 0.013]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, count);
     fill(&mut particles, |_| (100.0, 0.0));
-    let law = Physical {
-        bubbles: bubbly().bubbles.map(|bubbles| Bubbles {
-            foam_time: Some(100.0),
-            most: 32_768,
-            ..bubbles
-        }),
-        ..bubbly()
-    };
+    let law = bubbling(bubbly(), |it| {
+        (it.foam_time, it.most) = (Some(100.0), 32_768);
+    });
     let solver = Setup::new(of(law, parameters()), vec![profile], particles).solver(device);
     frames(device, &solver, &[Pose::IDENTITY], 150);
     solver
@@ -87,19 +81,16 @@ pub fn held(solver: &Solver) -> [f64; 2] {
         .zip(by_identity(&state, &state.matter))
         .map(|(p, row)| row[3] * (0.5 * p.velocity.length_squared() - gravity.dot(p.position)))
         .sum();
-    let ledger = vitriol_sim::measure::measure_heat(solver.parameters(), &state)
-        .and_then(|heat| heat.ledger)
-        .unwrap();
+    let ledger = ledger(solver);
     let mechanical = mechanical * solver.parameters().particle_mass();
     [ledger.mass + ledger.steam, ledger.balance() + mechanical]
 }
 
 /// Hot water with nuclei everywhere, which boils up.
 pub fn kettle(nuclei_spacing: f64, most: u32) -> Setup {
-    let mut law = bubbly();
-    if let Some(bubbles) = &mut law.bubbles {
-        (bubbles.nuclei_spacing, bubbles.most) = (nuclei_spacing, most);
-    }
+    let law = bubbling(bubbly(), |it| {
+        (it.nuclei_spacing, it.most) = (nuclei_spacing, most);
+    });
     let mut setup = beaker(108.0, law);
     setup.particles.truncate(3000);
     setup
@@ -180,15 +171,7 @@ fn pool(device: &Gpu, spacing: f64, heated: f64, seconds: f64) -> [f64; 2] {
     let area = PI * radius * radius;
     let profile = Profile::new(&[[0.0, radius], [0.1, radius]], 0.002).unwrap();
     let count = (area * 0.05 / spacing.powi(3)) as usize;
-    let places = vitriol_sim::fill::fill(&profile, Pose::IDENTITY, count, spacing, Some(1));
-    let mut particles: Vec<_> = places
-        .unwrap()
-        .into_iter()
-        .map(|at| Particle {
-            flask: Some(0),
-            ..drop_at(at, DVec3::ZERO)
-        })
-        .collect();
+    let mut particles = water_of(&profile, Pose::IDENTITY, spacing, count);
     fill(&mut particles, |at| {
         (if at.y < HEATED { 101.0 } else { 100.2 }, 0.0)
     });
@@ -199,13 +182,7 @@ fn pool(device: &Gpu, spacing: f64, heated: f64, seconds: f64) -> [f64; 2] {
         substeps: (12.0 * (D / spacing).sqrt()).ceil() as u32,
         ..parameters()
     };
-    let law = Physical {
-        bubbles: bubbly().bubbles.map(|bubbles| Bubbles {
-            nuclei_spacing: 0.01,
-            ..bubbles
-        }),
-        ..bubbly()
-    };
+    let law = bubbling(bubbly(), |it| it.nuclei_spacing = 0.01);
     let setup = Setup {
         lanes: None,
         ..Setup::new(of(law, p), vec![profile], particles)

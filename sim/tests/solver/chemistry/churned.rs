@@ -48,10 +48,7 @@ fn entrained(device: &Gpu, j: f64, heights: [f64; 3]) -> [f64; 3] {
     let profile = Profile::new(&[[0.0, RADIUS], [0.4, RADIUS]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, 3600);
     fill(&mut particles, |_| (100.0, 0.0));
-    let mut law = spraying(bubbly());
-    if let Some(bubbles) = &mut law.bubbles {
-        bubbles.most = 16_384;
-    }
+    let law = bubbling(spraying(bubbly()), |it| it.most = 16_384);
     let solver = Setup::new(of(law, parameters()), vec![profile], particles).solver(device);
     frames(device, &solver, &[Pose::IDENTITY], 20);
     let p = solver.parameters().clone();

@@ -1,8 +1,9 @@
 //! Water on cold glass: one place's law by formulas and integrations in f64 that share nothing with it, and where it goes.
 
 use crate::common::at;
+use bytemuck::cast_slice;
 use glam::{Quat, Vec3};
-use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, bytes_of_elements};
+use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
 use vitriol_shaders::layout::{Dew, DewRow, Flask, FlaskPose, Puff, Step};
 use vitriol_shaders::{Library, sim};
 use vitriol_sim::chemistry::dew::{AROUND, Air, QUANTUM, UP, flux, rows, still, swept};
@@ -89,44 +90,31 @@ impl Rig {
             position: pose.position.extend(0.0).to_array(),
             orientation: pose.orientation.to_array(),
         });
-        let buffer = |name, bytes| Buffer::storage(&gpu, name, bytes).unwrap();
+        let of_poses: Vec<FlaskPose> = of_poses.collect();
+        let buffer = |name, data: &[u8]| {
+            let buffer = Buffer::storage(&gpu, name, data.len() as u64).unwrap();
+            gpu.write(&buffer, data).unwrap();
+            buffer
+        };
         let buffers = [
-            buffer("puffs", bytes_of_elements::<Puff>(2)),
-            buffer("dew", bytes_of_elements::<Dew>(PLACES * flasks)),
-            buffer("taken", 8),
-            buffer("wetted", 4 * (UP * flasks) as u64),
-            buffer("glass", 8 * (RINGS * flasks) as u64),
-            buffer("dew_rows", bytes_of_elements::<DewRow>(UP * flasks)),
-            buffer("flasks", bytes_of_elements::<Flask>(flasks)),
-            buffer("poses", bytes_of_elements::<FlaskPose>(flasks)),
-            buffer("made", bytes_of_elements::<u32>(6)),
+            buffer("puffs", cast_slice(&[Puff::default(); 2])),
+            buffer("dew", cast_slice(&vec![Dew::default(); PLACES * flasks])),
+            buffer("taken", cast_slice(&[0_u32; 2])),
+            buffer("wetted", cast_slice(&vec![0_u32; UP * flasks])),
+            buffer("glass", cast_slice(&vec![[20.0_f32, 0.0]; RINGS * flasks])),
+            buffer("dew_rows", cast_slice(&of_rows.repeat(flasks))),
+            buffer("flasks", cast_slice(&vec![flask; flasks])),
+            buffer("poses", cast_slice(&of_poses)),
+            // The next quantum that is washed off carries.
+            buffer("made", cast_slice(&[7, 7, 7, 7, u32::MAX, 0])),
         ];
-        let rig = Self {
+        Self {
             pass: ComputePipeline::new(&gpu, &compiled).unwrap(),
             rise: ComputePipeline::new(&gpu, &risen).unwrap(),
             areas: rows.iter().map(|row| row.area).collect(),
             buffers,
             gpu,
-        };
-        let write = |place: usize| &rig.buffers[place];
-        rig.gpu.write(write(0), &[Puff::default(); 2]).unwrap();
-        rig.gpu
-            .write(write(1), &vec![Dew::default(); PLACES * flasks])
-            .unwrap();
-        rig.gpu.write(write(2), &[0_u32; 2]).unwrap();
-        rig.gpu.write(write(3), &vec![0_u32; UP * flasks]).unwrap();
-        rig.gpu
-            .write(write(4), &vec![[20.0_f32, 0.0]; RINGS * flasks])
-            .unwrap();
-        rig.gpu.write(write(5), &of_rows.repeat(flasks)).unwrap();
-        rig.gpu.write(write(6), &vec![flask; flasks]).unwrap();
-        rig.gpu
-            .write(write(7), &of_poses.collect::<Vec<_>>())
-            .unwrap();
-        // The next quantum that is washed off carries.
-        let counts = [7, 7, 7, 7, u32::MAX, 0];
-        rig.gpu.write(write(8), &counts).unwrap();
-        rig
+        }
     }
 
     fn puffs(&self, puffs: [Puff; 2]) {

@@ -8,7 +8,6 @@ use std::f64::consts::PI;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::layout::Bubble;
 use vitriol_sim::chemistry::Physical;
-use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -17,13 +16,7 @@ use vitriol_tests::gpu;
 
 /// Bubbles that last as long as a test.
 fn lasting() -> Physical {
-    Physical {
-        bubbles: bubbly().bubbles.map(|bubbles| Bubbles {
-            foam_time: Some(100.0),
-            ..bubbles
-        }),
-        ..bubbly()
-    }
+    bubbling(bubbly(), |it| it.foam_time = Some(100.0))
 }
 
 /// `count` particles of water of 20 °C at rest in a vessel of that radius (m).
@@ -338,10 +331,7 @@ fn eruption(law: Physical) -> [f64; 3] {
 #[test]
 fn water_on_hot_acid_erupts() {
     let boiling = with_bubbles();
-    let mut still = boiling;
-    if let Some(bubbles) = &mut still.bubbles {
-        bubbles.nuclei_spacing = 1e3;
-    }
+    let still = bubbling(boiling, |it| it.nuclei_spacing = 1e3);
     let [out, energy, widest] = eruption(boiling);
     let [none, calm, _] = eruption(still);
     eprintln!(

@@ -3,8 +3,6 @@
 use super::bubbles::of;
 use super::setup::*;
 use crate::common::*;
-use vitriol_sim::chemistry::Physical;
-use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Dormant, SolverState};
@@ -21,15 +19,9 @@ const RESTORED: usize = 20;
 /// Acid of 180 °C in a glass, and cold water that falls into it. All of the built-in scene's chemistry, but more nuclei, so that little
 /// liquid boils soon.
 fn scene(dormant: bool, lanes: u32) -> Setup {
-    let law = with_bubbles();
-    let law = Physical {
-        bubbles: law.bubbles.map(|bubbles| Bubbles {
-            nuclei_spacing: 0.005,
-            most: 1024,
-            ..bubbles
-        }),
-        ..law
-    };
+    let law = bubbling(with_bubbles(), |it| {
+        (it.nuclei_spacing, it.most) = (0.005, 1024);
+    });
     let p = Parameters {
         dormant,
         ..of(law, parameters())

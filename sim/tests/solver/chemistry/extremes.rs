@@ -24,7 +24,7 @@ fn run(chemistry: &Chemistry, of: impl Fn(usize) -> (f64, f64)) -> (Counters, Ve
     let state = solver.snapshot().unwrap();
     let counters = solver.counters().unwrap();
     assert_eq!(counters.nan_particles, 0, "{chemistry:?}");
-    for found in particles_of(&state) {
+    for found in crate::common::particles(&state) {
         assert!(found.present && found.position.is_finite(), "{found:?}");
         // Line 27 comes after line 24: the default adds a third of each
         // relative velocity at most, over the lattice's largest eigenvalue.
@@ -48,10 +48,6 @@ fn run(chemistry: &Chemistry, of: impl Fn(usize) -> (f64, f64)) -> (Counters, Ve
     // However violent: 72 substeps of rounding.
     assert!((after - before).abs() <= 1e-6 * before, "{before} {after}");
     (counters, state.heat)
-}
-
-fn particles_of(state: &vitriol_sim::solver::SolverState) -> Vec<Found> {
-    particles(state)
 }
 
 fn papers(intensity: f64) -> [Chemistry; 2] {

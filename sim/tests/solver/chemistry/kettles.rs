@@ -6,7 +6,6 @@ use super::setup::*;
 use super::spray::spraying;
 use crate::common::*;
 use glam::{DQuat, DVec3};
-use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Counters, Solver};
@@ -19,11 +18,8 @@ fn boils(
     nuclei_spacing: f64,
     most: u32,
 ) -> Setup {
-    let mut law = spraying(bubbly());
-    law.bubbles = law.bubbles.map(|bubbles| Bubbles {
-        nuclei_spacing,
-        most,
-        ..bubbles
+    let law = bubbling(spraying(bubbly()), |it| {
+        (it.nuclei_spacing, it.most) = (nuclei_spacing, most);
     });
     Setup::new(of(law, parameters()), vec![profile], particles)
 }
@@ -205,14 +201,9 @@ fn acid_and_water_200_kelvin_too_hot() {
     let setup = Setup::new(of(with_bubbles(), parameters()), vec![profile], particles);
     let device = gpu::device();
     let solver = setup.solver(&device);
-    let ledger = || {
-        let state = solver.snapshot().unwrap();
-        let heat = vitriol_sim::measure::measure_heat(solver.parameters(), &state);
-        heat.and_then(|heat| heat.ledger).unwrap()
-    };
-    let start = ledger();
+    let start = ledger(&solver);
     frames(&device, &solver, &[Pose::IDENTITY], 45);
-    let end = ledger();
+    let end = ledger(&solver);
     let mass = (end.mass + end.steam) / start.mass - 1.0;
     let acid = end.acid / start.acid - 1.0;
     eprintln!("mass {mass}, acid {acid}, enthalpy {}", end.closure(&start));

@@ -2,7 +2,6 @@
 
 use super::setup::*;
 use crate::common::*;
-use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -12,11 +11,10 @@ use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::wall_heat::RINGS;
 use vitriol_sim::chemistry::{Chemistry, Physical};
-use vitriol_sim::fill::fill as fill_glass;
 use vitriol_sim::flask::glassware::find;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Particle, Solver, SolverState};
+use vitriol_sim::solver::{Solver, SolverState};
 use vitriol_tests::gpu;
 
 /// A glass of water at 80 °C that has come to rest loses what Newton's law has for its surface, πr². A tenth
@@ -162,13 +160,9 @@ fn hot_setup(law: Physical, temperature: f64, spacing: f64) -> Setup {
         ..with(Chemistry::Physical(law), parameters())
     };
     let count = (800.0 * (D / spacing).powi(3)) as usize;
-    let places = fill_glass(&narrow_glass(), Pose::IDENTITY, count, spacing, Some(1)).unwrap();
-    let particles = places.into_iter().map(|position| Particle {
-        flask: Some(0),
-        temperature,
-        ..drop_at(position, DVec3::ZERO)
-    });
-    Setup::new(p, vec![narrow_glass()], particles.collect())
+    let mut particles = water_of(&narrow_glass(), Pose::IDENTITY, spacing, count);
+    fill(&mut particles, |_| (temperature, 0.0));
+    Setup::new(p, vec![narrow_glass()], particles)
 }
 
 fn mean_temperature(state: &SolverState) -> f64 {

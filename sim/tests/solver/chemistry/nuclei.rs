@@ -7,7 +7,6 @@ use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::Particle;
 use vitriol_tests::gpu;
 
 /// Saturation pressure of water, Pa: IAPWS-IF97's steam tables at 100 to 120 °C.
@@ -22,18 +21,12 @@ const BOILING: f64 = 101_420.0;
 
 /// Bubbles that are born in a step in water of `temperature` (°C), in 1 m³, where one nucleus in a cube of `nuclei` (m) grows at 1 K.
 fn born(device: &Gpu, spacing: f64, nuclei: f64, temperature: f64) -> f64 {
-    let mut law = bubbly();
-    if let Some(bubbles) = &mut law.bubbles {
-        (bubbles.nuclei_spacing, bubbles.most) = (nuclei, 65_536);
-    }
+    let law = bubbling(bubbly(), |it| {
+        (it.nuclei_spacing, it.most) = (nuclei, 65_536);
+    });
     let profile = Profile::new(&[[0.0, 0.025], [0.05, 0.025]], 0.002).unwrap();
     let count = (5e-5 / spacing.powi(3)) as usize;
-    let places = vitriol_sim::fill::fill(&profile, Pose::IDENTITY, count, spacing, Some(1));
-    let at = |at| Particle {
-        flask: Some(0),
-        ..drop_at(at, glam::DVec3::ZERO)
-    };
-    let mut particles: Vec<_> = places.unwrap().into_iter().map(at).collect();
+    let mut particles = water_of(&profile, Pose::IDENTITY, spacing, count);
     fill(&mut particles, |_| (temperature, 0.0));
     let p = Parameters {
         spacing,

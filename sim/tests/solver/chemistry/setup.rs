@@ -8,6 +8,7 @@ use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
+use vitriol_sim::measure::{Ledger, measure_heat};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::Reference;
@@ -53,6 +54,12 @@ pub fn bubbly() -> Physical {
         lamella: None,
         ..built_in()
     }
+}
+
+/// `law` with a change of its bubbles.
+pub fn bubbling(mut law: Physical, change: impl FnOnce(&mut Bubbles)) -> Physical {
+    change(law.bubbles.as_mut().unwrap());
+    law
 }
 
 /// The physical chemistry of the built-in scene `water-into-acid`, but its particles hold their vapour.
@@ -168,6 +175,13 @@ pub fn leaning_reference(setup: &Setup, poses: &[Pose]) -> Reference {
         }
     };
     truth
+}
+
+/// The heat's ledger.
+pub fn ledger(solver: &Solver) -> Ledger {
+    let state = solver.snapshot().unwrap();
+    let heat = measure_heat(solver.parameters(), &state);
+    heat.and_then(|heat| heat.ledger).unwrap()
 }
 
 /// `rows` by slot in the order of the particles' identities.

@@ -7,23 +7,15 @@ use crate::common::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_shaders::layout::Drops;
-use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
-use vitriol_sim::measure::{Ledger, measure_heat};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Solver};
 use vitriol_tests::gpu;
 
 /// `law` with its spray followed.
 pub fn spraying(law: Physical) -> Physical {
-    Physical {
-        bubbles: law.bubbles.map(|bubbles| Bubbles {
-            spray: true,
-            ..bubbles
-        }),
-        ..law
-    }
+    bubbling(law, |it| it.spray = true)
 }
 
 /// A cylinder 50 mm wide and 60 mm high with water of `temperature` (°C) 20 mm deep, on a floor at its foot.
@@ -61,12 +53,6 @@ fn launch(solver: &Solver, all: &[Drops]) {
         *place = *drops;
     }
     solver.restore(&state).unwrap();
-}
-
-fn ledger(solver: &Solver) -> Ledger {
-    let state = solver.snapshot().unwrap();
-    let heat = measure_heat(solver.parameters(), &state);
-    heat.and_then(|heat| heat.ledger).unwrap()
 }
 
 fn drops(solver: &Solver, place: usize) -> Drops {

@@ -2,6 +2,7 @@
 
 use super::*;
 
+/// Liquid that is warm, or not even, goes on: it would cool, or mix.
 #[test]
 fn warm_and_uneven_liquid_stays_awake() {
     let gpu = gpu::device();
@@ -29,6 +30,7 @@ fn warm_and_uneven_liquid_stays_awake() {
     assert_eq!(solver.awake().unwrap(), 500, "two layers");
 }
 
+/// Liquid over a plate that is on never sleeps.
 #[test]
 fn a_plate_keeps_liquid_awake() {
     let gpu = gpu::device();
@@ -40,6 +42,7 @@ fn a_plate_keeps_liquid_awake() {
     assert_eq!(solver.awake().unwrap(), 200);
 }
 
+/// Liquid that sloshes is not caught at the turn of its swing: its particles are slow then, and only for a moment.
 #[test]
 fn a_slosh_is_not_caught_at_its_turn() {
     let gpu = gpu::device();
@@ -63,6 +66,7 @@ fn a_slosh_is_not_caught_at_its_turn() {
     assert!(raised.abs() < 0.25 * D, "{raised} m");
 }
 
+/// Water that turns slowly with no particle fast: the mean alone tells that it is not at rest.
 #[test]
 fn water_that_turns_as_a_whole_stays_awake() {
     let gpu = gpu::device();
@@ -99,6 +103,7 @@ fn water_that_turns_as_a_whole_stays_awake() {
     }
 }
 
+/// Drops in the air may come down, and what is unmixed within particles mixes.
 #[test]
 fn drops_and_unmixed_particles_keep_liquid_awake() {
     let gpu = gpu::device();
