@@ -49,6 +49,7 @@ mod ticket;
 
 pub use ash;
 pub use ash::vk;
+pub use bytemuck::NoUninit;
 
 pub use device::{
     BindingLimits, Candidate, Core, DeviceInfo, DeviceRequest, DeviceSummary, EnabledFeatures,

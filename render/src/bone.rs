@@ -88,3 +88,15 @@ pub struct Bone {
     /// How black acid has made it, 0 to 1.
     pub stain: f32,
 }
+
+impl Bone {
+    /// A bone that no acid has blackened.
+    pub const fn new(finish: Finish, ends: [Vec3; 2], radii: [f32; 2]) -> Self {
+        Self {
+            ends,
+            radii,
+            finish,
+            stain: 0.0,
+        }
+    }
+}

@@ -7,7 +7,7 @@ mod readback;
 
 use glam::{Affine3A, Quat};
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
-use vitriol_shaders::{Library, ShaderId, layout};
+use vitriol_shaders::{Library, layout};
 
 use crate::RenderError;
 use crate::desc::{Lanes, LiquidDesc};
@@ -76,13 +76,6 @@ impl Fluid {
             sums: Buffer::storage(gpu, "thickness", bytes_of_elements::<[u32; 2]>(blocks))?,
             bubbles: BubbleCells::new(gpu, library, desc.bubbles, views)?,
         })
-    }
-
-    /// Whether any of these shaders is the liquid's.
-    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| id.path().starts_with("render/fluid/"))
     }
 
     pub(crate) fn ellipsoids(&self, slot: usize) -> &Buffer {

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
-use vitriol_shaders::{Library, ShaderId, hands, layout};
+use vitriol_shaders::{Library, hands, layout};
 
 use crate::RenderError;
 use crate::bone::{Bone, CHARRED, Finish, JOINED, MOST_BONES, Scale};
@@ -34,13 +34,6 @@ impl Hands {
             coarse_pass: foveated.then(coarse).transpose()?,
             bones: Buffer::storage(gpu, "bones", bytes)?,
         })
-    }
-
-    /// Whether `changed` has a shader of these passes.
-    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| id.path().starts_with("render/hands/"))
     }
 
     /// Records the pass that marks the tiles with hands or tools, after the other marks and before the lists.

@@ -122,14 +122,16 @@ impl Renderer {
             foveated,
             ..
         } = self.desc;
-        let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
+        let is_of = |folder: &str| changed.iter().any(|id| id.path().starts_with(folder));
+        let liquid = self.desc.liquid.filter(|_| is_of("render/fluid/"));
         let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views, lanes));
         let fluid = fluid.transpose()?;
-        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, lanes));
+        let spheres = is_of("render/spheres/");
+        let spheres = spheres.then(|| Spheres::new(gpu, library, lanes));
         let spheres = spheres.transpose()?;
-        let spray = Spray::uses(changed).then(|| Spray::new(gpu, library));
+        let spray = is_of("render/spray/").then(|| Spray::new(gpu, library));
         let spray = spray.transpose()?;
-        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, foveated));
+        let hands = is_of("render/hands/").then(|| Hands::new(gpu, library, foveated));
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;

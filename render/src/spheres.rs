@@ -1,7 +1,7 @@
 //! Particles as spheres, coloured by an attribute: the films of temperature, acid and speed.
 
 use vitriol_gpu::{Buffer, ComputePipeline, DeviceInfo, Gpu, GpuError, Recorder};
-use vitriol_shaders::{Library, ShaderId, layout, spheres};
+use vitriol_shaders::{Library, layout, spheres};
 
 use crate::RenderError;
 use crate::compute::compute;
@@ -30,13 +30,6 @@ impl Spheres {
             info: gpu.info().clone(),
             asked: asked.pixels,
         })
-    }
-
-    /// Whether `changed` has a shader of these passes.
-    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| id.path().starts_with("render/spheres/"))
     }
 
     /// Records the passes that find the nearest sphere of each pixel of so many views and mark the tiles with spheres, after the other marks

@@ -1,7 +1,7 @@
 //! Drops that bubbles threw up, finer than particles.
 
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder};
-use vitriol_shaders::{Library, ShaderId, layout, spray};
+use vitriol_shaders::{Library, layout, spray};
 
 use crate::RenderError;
 use crate::compute::compute;
@@ -36,13 +36,6 @@ impl Spray {
             light_pass: compute(gpu, library, spray::LIGHT, &[class])?,
             resting: Resting::new(gpu)?,
         })
-    }
-
-    /// Whether `changed` has a shader of these passes.
-    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| id.path().starts_with("render/spray/"))
     }
 
     /// Records the passes that find the nearest drop of each pixel and mark the tiles with drops, after the other marks and before the

@@ -77,7 +77,6 @@ pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_xr::FrameInfo;
 
     /// A scene at a twentieth that stands 2 m to the right: a hand 2.1 m to the right is 0.1 m from its origin, 2 of its units.
     #[test]
@@ -88,12 +87,9 @@ mod tests {
         let mut hand = Hand::default();
         hand.stage_from_grip.position = Vec3::new(2.1, 0.8, -0.4);
         let frame = PoseFrame {
-            step: 0,
-            time_ns: 0,
             stage_from_view: vitriol_xr::Pose::new(Vec3::new(2.0, 1.2, 0.0), glam::Quat::IDENTITY),
             hands: [hand, Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
+            ..PoseFrame::default()
         };
         let near = near_from_stage(&frame, &scene);
         let input = input(&frame, &scene);

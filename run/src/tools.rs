@@ -17,12 +17,7 @@ const SCALE_INSIDE: f32 = 0.006;
 /// One tool's parts in its own frame, real metres; `celsius` is what a thermometer shows.
 fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
     let [radius, height] = kind.cylinder().map(|m| m as f32);
-    let part = |finish: Finish, ends: [Vec3; 2], radius: f32| Bone {
-        ends,
-        radii: [radius; 2],
-        finish,
-        stain: 0.0,
-    };
+    let part = |finish: Finish, ends: [Vec3; 2], radius: f32| Bone::new(finish, ends, [radius; 2]);
     // Between two heights of the axis, round ends included.
     let stem = |finish, from: f32, to: f32, radius: f32| {
         part(
@@ -109,12 +104,7 @@ fn goggles() -> Vec<Bone> {
     let foot = |x: f32, z: f32| [Vec3::new(x, 0.03, z), Vec3::new(x, THICK, z)];
     let feet = [-1.0, 1.0].map(|side| foot(side * (ASIDE + LENS[0]), 0.0));
     (ring(-1.0).chain(ring(1.0)).chain(feet))
-        .map(|ends| Bone {
-            ends,
-            radii: [THICK; 2],
-            finish: Finish::Frame,
-            stain: 0.0,
-        })
+        .map(|ends| Bone::new(Finish::Frame, ends, [THICK; 2]))
         .collect()
 }
 

@@ -77,6 +77,16 @@ pub(crate) fn output(mut command: Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// The name of the test that calls it, as its own runner knows it: the runner names the thread of each test so.
+///
+/// # Panics
+/// On another thread without a name.
+#[must_use]
+pub fn own_name() -> String {
+    let thread = std::thread::current();
+    thread.name().unwrap().to_owned()
+}
+
 /// A program at work, which does not outlive the test.
 #[derive(Debug)]
 pub struct Kept(pub Child);

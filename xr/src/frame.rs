@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::Pose;
 
-/// Everything that one simulation step consumed of the user's movements.
-#[derive(Clone, Debug, PartialEq)]
+/// Everything that one simulation step consumed of the user's movements; by default of the first step, with nothing known.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PoseFrame {
     /// Index of the simulation step that consumes this frame.
     pub step: u64,
@@ -204,12 +204,8 @@ mod tests {
             ..Hand::default()
         };
         PoseFrame {
-            step: 0,
-            time_ns: 0,
-            stage_from_view: Pose::IDENTITY,
             hands: [hand, Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
+            ..PoseFrame::default()
         }
     }
 

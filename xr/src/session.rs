@@ -211,17 +211,15 @@ impl OpenXr {
         let frame = HeadsetFrame {
             index: self.index,
             poses: PoseFrame {
-                step: 0,
-                time_ns: 0,
                 stage_from_view: self.head,
                 hands: self.hands.clone(),
-                scenario: Vec::new(),
                 info: FrameInfo {
                     xr_time: begun.time.as_nanos(),
                     period_ns: begun.period.as_nanos(),
                     fov: self.eyes.views().map(|view| view.fov),
                     session_state: live.state,
                 },
+                ..PoseFrame::default()
             },
             should_render: begun.should_render,
             recentred,

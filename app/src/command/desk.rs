@@ -54,7 +54,7 @@ pub fn run(args: &DeskArgs, format: Format) -> Result<(), Failure> {
     let mut desk = desk.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
     let prepared = Prepared::new(shared, format, options)?;
     if format == Format::Text {
-        eprintln!("{}", menu::mouse_lines());
+        eprintln!("{}", menu::MOUSE_LINES);
     }
     let options = prepared.solved(&gpu)?;
     prepared.take_keys(decisions)?;

@@ -1,9 +1,8 @@
 //! Text and lists of limited length: input from a network is refused where it is longer, and this program's own is cut.
 
-use std::fmt;
 use std::ops::Deref;
 
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Characters of a message to a student. Our choice: what a panel shows in a few lines.
@@ -85,31 +84,13 @@ impl<T: Serialize, const MOST: usize> Serialize for List<T, MOST> {
 
 impl<'de, T: Deserialize<'de>, const MOST: usize> Deserialize<'de> for List<T, MOST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Elements<T, const MOST: usize>(std::marker::PhantomData<T>);
-
-        impl<'de, T: Deserialize<'de>, const MOST: usize> Visitor<'de> for Elements<T, MOST> {
-            type Value = Vec<T>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "a list of at most {MOST}")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
-                let mut things = Vec::new();
-                while let Some(thing) = seq.next_element()? {
-                    if things.len() == MOST {
-                        return Err(A::Error::custom(format_args!(
-                            "a list has more than {MOST}"
-                        )));
-                    }
-                    things.push(thing);
-                }
-                Ok(things)
-            }
+        // A message has a length, and so has what is read here before it is refused.
+        let things = Vec::deserialize(deserializer)?;
+        if things.len() > MOST {
+            return Err(D::Error::custom(format_args!(
+                "a list has more than {MOST}"
+            )));
         }
-
-        deserializer
-            .deserialize_seq(Elements::<T, MOST>(std::marker::PhantomData))
-            .map(Self)
+        Ok(Self(things))
     }
 }

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use axum::body::Bytes;
 use axum::http::HeaderValue;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use ring::digest::{SHA256, digest};
 
 const HTML: &str = include_str!("page/page.html");
@@ -75,27 +77,8 @@ fn escaped(text: &str) -> String {
 
 /// The hash by which a policy allows a script or a style.
 fn source(text: &str) -> String {
-    format!(
-        "sha256-{}",
-        base64(digest(&SHA256, text.as_bytes()).as_ref())
-    )
-}
-
-/// Encodes in base 64 (RFC 4648, 4).
-fn base64(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for three in bytes.chunks(3) {
-        let mut bits = 0;
-        for at in 0..3 {
-            bits = bits << 8 | u32::from(three.get(at).copied().unwrap_or(0));
-        }
-        for at in 0..4 {
-            let digit = ALPHABET[(bits >> (18 - 6 * at) & 63) as usize];
-            text.push(if at <= three.len() { digit.into() } else { '=' });
-        }
-    }
-    text
+    let hash = digest(&SHA256, text.as_bytes());
+    format!("sha256-{}", STANDARD.encode(hash))
 }
 
 #[cfg(test)]
@@ -174,21 +157,5 @@ mod tests {
         }
         // One without texts is English.
         assert_eq!(Page::new("fr").html, Page::new("en").html);
-    }
-
-    /// Test vectors of RFC 4648, 10.
-    #[test]
-    fn base64_is_that_of_the_rfc() {
-        let pairs = [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("foobar", "Zm9vYmFy"),
-        ];
-        for (plain, coded) in pairs {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
     }
 }

@@ -298,7 +298,6 @@ mod tests {
     use vitriol_lesson::Language;
     use vitriol_sim::scene::Scene;
     use vitriol_sim::solver::Held;
-    use vitriol_xr::{FrameInfo, Hand, Pose};
 
     /// Brings up its second scene with its first step, and simulates nothing.
     struct Switching {
@@ -376,22 +375,11 @@ mod tests {
         (hub, live)
     }
 
-    fn frame() -> PoseFrame {
-        PoseFrame {
-            step: 0,
-            time_ns: 0,
-            stage_from_view: Pose::IDENTITY,
-            hands: [Hand::default(), Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
-        }
-    }
-
     /// A page that asks for the glass from close by gets it after the next step, though no film is taken.
     #[test]
     fn a_page_that_asks_gets_the_glass_from_close_by() {
         let (hub, mut live) = live();
-        live.step(&frame()).unwrap();
+        live.step(&PoseFrame::default()).unwrap();
         let mut page = Watcher::enter(&hub, Codec::CloseUp).unwrap();
         let begun = Instant::now();
         while !live.coder.is_wanted(Viewpoint::CloseUp) {
@@ -400,7 +388,7 @@ mod tests {
             std::thread::sleep(PATIENCE);
         }
         assert!(!live.console.port.wanted().h264);
-        live.step(&frame()).unwrap();
+        live.step(&PoseFrame::default()).unwrap();
         assert_eq!(page.see().unwrap()[0], 4);
     }
 
@@ -415,7 +403,7 @@ mod tests {
         };
         let first = ["Beaker with 98\u{a0}% acid", "Beaker with water"];
         assert_eq!(names(&live), first);
-        live.step(&frame()).unwrap();
+        live.step(&PoseFrame::default()).unwrap();
         assert_eq!(names(&live), ["Tray", "Bottle with water"]);
     }
 }

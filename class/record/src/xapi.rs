@@ -7,7 +7,6 @@ mod lines;
 mod statement;
 mod vocabulary;
 
-pub(crate) use incident::cause;
 pub use lines::{FILE, write_lines};
 pub use statement::{Statement, statements};
 pub use vocabulary::{KEYS, Key, OURS};

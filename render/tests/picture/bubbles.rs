@@ -1,7 +1,7 @@
 //! Bubbles in a tank, seen from above, against rays that are followed in f64 by Snell's and Fresnel's laws, with every bubble tried.
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
-use crate::rig::{Picture, Rig, linear, ray};
+use crate::rig::{Picture, Rig, displayed, linear, ray};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::Buffer;
 use vitriol_render::{BoxDesc, Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
@@ -135,10 +135,7 @@ fn bubbles_are_seen_at_every_scale() {
     let half_out = |x: f64, z: f64| (DVec3::new(x, DEPTH, z), 0.005);
     balls.extend([half_out(0.010, 0.004), half_out(-0.008, -0.009)]);
     let mut pictures = [1.0, 0.05, 2.0].map(|unit: f32| {
-        rig.set_scene(&SceneDesc {
-            vessels: vec![tank(unit.into())],
-            ..SceneDesc::default()
-        });
+        rig.set_vessels(vec![tank(unit.into())]);
         [&[][..], &balls].map(|balls| drawn_in_units(&rig, balls, unit))
     });
     let [[plain, real], others @ ..] = &mut pictures;
@@ -290,11 +287,6 @@ const LIGHT: [f64; 2] = [0.24, 0.52];
 /// Red light from a direction with the upward part `up`.
 fn sky(up: f64) -> f64 {
     LIGHT[0] + (LIGHT[1] - LIGHT[0]) * (0.5 + 0.5 * up)
-}
-
-/// Light as it is displayed: K. Narkowicz's fit of ACES.
-fn displayed(light: f64) -> f64 {
-    light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
 }
 
 /// Fresnel's share of unpolarised light, by the angles before and behind a face.

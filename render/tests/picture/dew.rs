@@ -1,11 +1,10 @@
 //! Dew on glass: what it hides, and what it leaves unchanged.
 
-use crate::rig::{Rig, linear, ray};
+use crate::rig::{Rig, cylinder, linear, ray};
 use crate::steam::even;
 use glam::{Affine3A, DVec3, Vec3};
 use std::f64::consts::TAU;
-use vitriol_gpu::Buffer;
-use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, SteamSource, VesselDesc, View};
+use vitriol_render::{Fov, FrameDesc, Panel, SteamSource, View};
 use vitriol_shaders::layout::{Dew, Puff};
 
 const EXTENT: [u32; 2] = [320, 240];
@@ -17,15 +16,7 @@ const PLACES: usize = 512;
 /// A cylinder of glass.
 fn rig() -> Rig {
     let mut rig = Rig::new(EXTENT, 1);
-    let outer = INNER + 0.002;
-    rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, 0.002], [INNER, 0.002], [INNER, 0.1]],
-            outer: vec![[0.0, 0.0], [outer, 0.0], [outer, 0.1]],
-            ..VesselDesc::default()
-        }],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![cylinder([INNER, INNER + 0.002], 0.002, 0.1)]);
     rig
 }
 
@@ -41,8 +32,7 @@ fn view() -> View {
 
 /// The picture before a panel of one colour, with a film of kg/m² by its angle from +X towards +Z.
 fn before(rig: &Rig, colour: u32, film: Option<&dyn Fn(f64) -> f64>) -> Vec<u8> {
-    let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
-    rig.gpu.write(&puffs, &[Puff::default()]).unwrap();
+    let puffs = rig.filled("puffs", &[Puff::default()]);
     let places = (0..PLACES).map(|place| Dew {
         film: film.map_or(0.0, |film| {
             film(TAU * ((place % AROUND) as f64 + 0.5) / AROUND as f64) as f32
@@ -50,8 +40,7 @@ fn before(rig: &Rig, colour: u32, film: Option<&dyn Fn(f64) -> f64>) -> Vec<u8> 
         ..Dew::default()
     });
     let places: Vec<Dew> = places.collect();
-    let dew = Buffer::storage(&rig.gpu, "dew", size_of_val(&places[..]) as u64).unwrap();
-    rig.gpu.write(&dew, &places).unwrap();
+    let dew = rig.filled("dew", &places);
     let image = even(rig, colour);
     let view = view();
     let behind = Affine3A::from_translation(Vec3::new(0.0, 0.0, -0.8));

@@ -1,9 +1,8 @@
 //! A picture smaller than the renderer's images, as the headset draws it when time is short.
 
 use crate::liquid::{Liquid, SPACING, frame, lattice, rig};
-use crate::rig::{LEFT_QUARTER, Picture, Rig};
+use crate::rig::{LEFT_QUARTER, Picture, Rig, cylinder};
 use glam::{Affine3A, Vec3};
-use vitriol_gpu::Buffer;
 use vitriol_render::{
     FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, SteamSource,
     SurfaceFilter, VesselDesc, View,
@@ -48,10 +47,8 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
 fn with_frame<T>(held: [u32; 2], masked: bool, then: impl FnOnce(&Rig, FrameDesc<'_>) -> T) -> T {
     let mut rig: Rig = rig(held, 2, SurfaceFilter::NarrowRange);
     let glass = VesselDesc {
-        inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
-        outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
         marks: vec![0.012, 0.022],
-        ..VesselDesc::default()
+        ..cylinder([0.02, 0.022], 0.002, 0.05)
     };
     rig.set_scene(&SceneDesc::laboratory(vec![glass], 0.75, 1.0));
     if masked {
@@ -69,14 +66,13 @@ fn with_frame<T>(held: [u32; 2], masked: bool, then: impl FnOnce(&Rig, FrameDesc
         rig.buffer("balls", &balls),
         rig.buffer("attributes", &attributes),
     );
-    let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
     let puff = Puff {
         position: (middle + Vec3::Y * 0.03).to_array(),
         radius: 0.02,
         depth: 1.0,
         ..Puff::default()
     };
-    rig.gpu.write(&puffs, &[puff]).unwrap();
+    let puffs = rig.filled("puffs", &[puff]);
     let look = |x: f32| {
         let eye = FOOT + Vec3::new(x, 0.1, 0.2);
         View::look_at(eye, FOOT + Vec3::Y * 0.02, View::bench(4.0 / 3.0).fov)

@@ -10,7 +10,7 @@ use vitriol_shaders::layout::Puff;
 
 use crate::liquid::{Liquid, frame, lattice, rig_of};
 use crate::panel::image;
-use crate::rig::{LEFT_QUARTER, Picture, Rig, ray};
+use crate::rig::{LEFT_QUARTER, Picture, Rig, cylinder, ray};
 
 /// Of no whole number of tiles or blocks.
 pub const EXTENT: [u32; 2] = [635, 467];
@@ -31,10 +31,8 @@ impl Bench {
     /// Its glass on its table, in a room with furniture or without.
     pub fn scene(furnished: bool) -> SceneDesc {
         let glass = VesselDesc {
-            inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
-            outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
             marks: vec![0.012, 0.022],
-            ..VesselDesc::default()
+            ..cylinder([0.02, 0.022], 0.002, 0.05)
         };
         SceneDesc {
             furnished,
@@ -55,23 +53,23 @@ impl Bench {
         let places: Vec<_> = places.iter().map(|place| middle + *place).collect();
         let liquid = Liquid::new(&rig, &places, |x| if x.y < middle.y { 0.9 } else { 0.0 });
         let at = |x: f32| Affine3A::from_translation(FOOT + Vec3::new(x, 0.0, -0.02 * x));
-        let bone = |x: f32| Bone {
-            ends: [
-                FOOT + Vec3::new(x, 0.03, 0.02),
-                FOOT + Vec3::new(x + 0.03, 0.09, 0.04),
-            ],
-            radii: [0.009, 0.008],
-            finish: Finish::Glove,
-            stain: 0.0,
+        let bone = |x: f32| {
+            Bone::new(
+                Finish::Glove,
+                [
+                    FOOT + Vec3::new(x, 0.03, 0.02),
+                    FOOT + Vec3::new(x + 0.03, 0.09, 0.04),
+                ],
+                [0.009, 0.008],
+            )
         };
-        let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
         let puff = Puff {
             position: (FOOT + Vec3::new(0.08, 0.06, 0.0)).to_array(),
             radius: 0.03,
             depth: 1.0,
             ..Puff::default()
         };
-        rig.gpu.write(&puffs, &[puff]).unwrap();
+        let puffs = rig.filled("puffs", &[puff]);
         Self {
             vessels: [-0.14, 0.0, 0.11].map(at).to_vec(),
             hand: [bone(0.04), bone(-0.11)],

@@ -1,7 +1,7 @@
 //! Traced glass against a cylinder in f64.
 
 use crate::panel::image;
-use crate::rig::{Rig, ray};
+use crate::rig::{Rig, cylinder, ray};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use vitriol_render::{Fov, FrameDesc, Label, Panel, SceneDesc, VesselDesc, View};
 
@@ -13,12 +13,7 @@ const SMOOTHED: i32 = 4;
 
 /// A cylinder of glass of 2 mm, so broad and high (m).
 pub fn beaker(radius: f64, height: f64) -> VesselDesc {
-    let (within, floor) = (radius - 0.002, 0.002);
-    VesselDesc {
-        inner: vec![[0.0, floor], [within, floor], [within, height]],
-        outer: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
-        ..VesselDesc::default()
-    }
+    cylinder([radius - 0.002, radius], 0.002, height)
 }
 
 /// Whether a ray meets the cylinder that the beaker fits in, eye outside: through its mouth it meets a wall or the
@@ -47,10 +42,7 @@ fn meets(origin: DVec3, along: DVec3) -> bool {
 #[test]
 fn glass_is_where_its_cylinder_is() {
     let mut rig = Rig::new(EXTENT, 1);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![beaker(RADIUS, HEIGHT)],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![beaker(RADIUS, HEIGHT)]);
     let image = image(&rig);
     let foot = Vec3::new(0.1, 0.75, -0.4);
     let middle = foot + Vec3::Y * 0.02;

@@ -8,7 +8,7 @@
 //! them before they are committed.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
-use crate::rig::{Rig, ray};
+use crate::rig::{Rig, cylinder, ray};
 use glam::{Affine3A, Vec3};
 use std::path::PathBuf;
 use vitriol_render::{Fov, SceneDesc, Surface, SurfaceFilter, VesselDesc, View};
@@ -45,10 +45,8 @@ fn beaker(
     let mut rig: Rig = rig(extent, 1, filter);
     let (radius, floor) = (f64::from(RADIUS), 0.002);
     let beaker = VesselDesc {
-        inner: vec![[0.0, floor], [radius, floor], [radius, 0.05]],
-        outer: vec![[0.0, 0.0], [radius + 0.002, 0.0], [radius + 0.002, 0.05]],
         marks: vec![0.012, 0.022, 0.032],
-        ..VesselDesc::default()
+        ..cylinder([radius, radius + 0.002], floor, 0.05)
     };
     rig.set_scene(&SceneDesc {
         furnished,

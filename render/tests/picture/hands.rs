@@ -17,14 +17,15 @@ const FLATTEST: f64 = 0.2;
 /// A hand of a palm, three fingers and a cuff, where the eye sees it: `place` is in its own frame.
 fn hand(view: &View, place: Vec3, turn: f32) -> Vec<Bone> {
     let turn = Quat::from_euler(EulerRot::ZXY, turn, 0.5, 0.3);
-    let bone = |a: [f32; 3], b: [f32; 3], radii: [f32; 2], cuff: bool| Bone {
-        ends: [a, b].map(|end| {
-            let end = place + turn * (0.001 * Vec3::from(end));
-            view.stage_from_eye.transform_point3(end)
-        }),
-        radii: radii.map(|radius| 0.001 * radius),
-        finish: if cuff { Finish::Cuff } else { Finish::Glove },
-        stain: 0.0,
+    let bone = |a: [f32; 3], b: [f32; 3], radii: [f32; 2], cuff: bool| {
+        Bone::new(
+            if cuff { Finish::Cuff } else { Finish::Glove },
+            [a, b].map(|end| {
+                let end = place + turn * (0.001 * Vec3::from(end));
+                view.stage_from_eye.transform_point3(end)
+            }),
+            radii.map(|radius| 0.001 * radius),
+        )
     };
     let mut bones = vec![
         bone([-14.0, 0.0, 0.0], [-20.0, 70.0, 0.0], [14.0, 12.0], false),
@@ -233,15 +234,16 @@ fn no_ray_goes_through_a_palm() {
     };
     for (y, x) in [(0.2, 0.3), (1.4, 0.4), (-0.5, 1.3), (2.3, -0.6)] {
         let turn = Quat::from_euler(EulerRot::YXZ, y, x, 0.0);
-        let bone = |(a, b, radii): ([i8; 3], [i8; 3], [f32; 2])| Bone {
-            ends: [a, b].map(|end| {
-                let end = 0.001 * Vec3::from(end.map(f32::from));
-                let place = Vec3::new(0.0, 0.0, -0.5) + turn * end;
-                view.stage_from_eye.transform_point3(place)
-            }),
-            radii: radii.map(|radius| 0.001 * radius),
-            finish: Finish::Glove,
-            stain: 0.0,
+        let bone = |(a, b, radii): ([i8; 3], [i8; 3], [f32; 2])| {
+            Bone::new(
+                Finish::Glove,
+                [a, b].map(|end| {
+                    let end = 0.001 * Vec3::from(end.map(f32::from));
+                    let place = Vec3::new(0.0, 0.0, -0.5) + turn * end;
+                    view.stage_from_eye.transform_point3(place)
+                }),
+                radii.map(|radius| 0.001 * radius),
+            )
         };
         let bones = PALM.map(bone);
         let depth = &draw(&rig, &[view], [&bones, &[]]).depth[0];
@@ -305,21 +307,16 @@ fn where_there_is_no_hand_there_is_nothing() {
     let empty = rig.draw(&FrameDesc::empty(&[view]));
     assert!(empty.depth[0].iter().all(|depth| *depth == 0.0));
     let behind = hand(&view, Vec3::new(0.0, 0.0, 0.4), 0.0);
-    let nowhere = [f32::NAN, f32::INFINITY, 1e30].map(|x| Bone {
-        ends: [Vec3::splat(x), Vec3::Y],
-        radii: [0.01; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    });
+    let nowhere = [f32::NAN, f32::INFINITY, 1e30]
+        .map(|x| Bone::new(Finish::Glove, [Vec3::splat(x), Vec3::Y], [0.01; 2]));
     let picture = draw(&rig, &[view], [&behind, &nowhere]);
     assert!(picture.depth == empty.depth && picture.colour == empty.colour);
     // A hand about the eye is not seen from within.
-    let about = Bone {
-        ends: [Vec3::from(view.stage_from_eye.translation); 2],
-        radii: [0.05; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    };
+    let about = Bone::new(
+        Finish::Glove,
+        [Vec3::from(view.stage_from_eye.translation); 2],
+        [0.05; 2],
+    );
     let picture = draw(&rig, &[view], [&[], &[about]]);
     assert!(picture.depth == empty.depth && picture.colour == empty.colour);
 }

@@ -1,7 +1,7 @@
 //! The laboratory about the bench against geometry and light in f64: where sink, tray and a sign are seen, where a number stands, and how
 //! bright rooms are.
 
-use crate::rig::{Picture, Rig, linear};
+use crate::rig::{Picture, Rig, cylinder, displayed, linear};
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, Label, PlateDesc, RoomLight, SceneDesc, VesselDesc, View};
 
@@ -144,11 +144,10 @@ fn numbers_and_labels_are_printed_at_their_heights() {
     let (marks, volumes) = (vec![0.02, 0.05], vec![40, 80]);
     let mut rig = Rig::new(EXTENT, 1);
     let vessel = |volumes: Vec<u32>, label| VesselDesc {
-        inner: vec![[0.0, 0.002], [0.032, 0.002], [0.032, 0.09]],
-        outer: vec![[0.0, 0.0], [0.034, 0.0], [0.034, 0.09]],
         marks: marks.clone(),
         volumes,
         label,
+        ..cylinder([0.032, 0.034], 0.002, 0.09)
     };
     let label = Label {
         lines: vec!["H₂O".to_owned()],
@@ -226,8 +225,6 @@ fn rooms_are_as_bright_as_they_say() {
     let view = look(at + Vec3::new(0.0, 0.6, 0.1), at, 0.1);
     let window = glam::DVec3::new(-1.6, 1.75, 0.35) - at.as_dvec3();
     let square = window.length_squared();
-    let displayed =
-        |light: f64| light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
     for (light, levels) in [
         (RoomLight::DAY, [1.0, 1.0, 1.0]),
         (RoomLight::BRIGHT, [2.5, 1.6, 0.65]),
@@ -250,8 +247,6 @@ fn rooms_are_as_bright_as_they_say() {
 /// Panes, bar and wall of the window, where geometry has them, with their own light; seen directly, and in still water's mirror.
 #[test]
 fn the_window_is_seen_and_mirrored() {
-    let displayed =
-        |light: f64| light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
     for furnished in [false, true] {
         let mut rig = Rig::new(EXTENT, 1);
         rig.set_scene(&SceneDesc {

@@ -61,11 +61,6 @@ impl Liquid {
                 }
             }
         }
-        let words = |label: &str, data: &[u32]| {
-            let buffer = Buffer::storage(&rig.gpu, label, size_of_val(data) as u64).unwrap();
-            rig.gpu.write(&buffer, data).unwrap();
-            buffer
-        };
         let heat: Vec<_> = positions
             .iter()
             .map(|&x| [20.0, acid(x), 0.0, 0.0])
@@ -75,8 +70,8 @@ impl Liquid {
         Self {
             positions: rig.buffer("positions", &places),
             heat: rig.buffer("heat", &heat),
-            counts: words("list counts", &counts),
-            list: words("list", &list),
+            counts: rig.filled("list counts", &counts),
+            list: rig.filled("list", &list),
             count: n as u32,
             unit,
             table: None,

@@ -3,10 +3,10 @@
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
 use crate::panel::image;
-use crate::rig::{linear, ray};
+use crate::rig::{cylinder, linear, ray};
 use glam::{Affine3A, Quat, Vec3};
 use std::f64::consts::FRAC_PI_2;
-use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
+use vitriol_render::{Fov, FrameDesc, Panel, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 const RADIUS: f64 = 0.02;
@@ -60,14 +60,7 @@ fn arrives(across: f64, height: f64, slope: f64) -> f64 {
 #[test]
 fn a_meniscus_is_young_and_laplaces() {
     let mut rig = clear_rig(EXTENT);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.04]],
-            outer: vec![[0.0, 0.0], [RADIUS + 0.002, 0.0], [RADIUS + 0.002, 0.04]],
-            ..VesselDesc::default()
-        }],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![cylinder([RADIUS, RADIUS + 0.002], FLOOR, 0.04)]);
     let mut places = Vec::new();
     for n in 0..LAYERS * 16 * 16 {
         let [x, y, z] = [n % 16, n / 256, n / 16 % 16];

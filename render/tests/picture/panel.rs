@@ -1,13 +1,12 @@
 //! The panel against rays in f64, objects before it, and the fading of the picture.
 
+use crate::glass::beaker;
 use crate::liquid::{self, Liquid, lattice};
 use crate::rig::{Picture, Rig, linear, ray};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
-use vitriol_gpu::{Buffer, Image, ImageDesc, QueueKind, vk};
+use vitriol_gpu::Image;
 use vitriol_render::camera::NEAR;
-use vitriol_render::{
-    Bone, Finish, Fov, FrameDesc, Panel, SceneDesc, SurfaceFilter, VesselDesc, View,
-};
+use vitriol_render::{Bone, Finish, Fov, FrameDesc, Panel, SceneDesc, SurfaceFilter, View};
 
 pub const EXTENT: [u32; 2] = [320, 240];
 const TEXELS: [u32; 2] = [256, 160];
@@ -15,12 +14,6 @@ const SIZE: [f32; 2] = [0.6, 0.375];
 
 /// Red grows to the right, green downwards.
 pub fn image(rig: &Rig) -> Image {
-    let desc = ImageDesc {
-        extent: TEXELS,
-        layers: 1,
-        format: vk::Format::R8G8B8A8_UNORM,
-        usage: vk::ImageUsageFlags::SAMPLED,
-    };
     let [width, height] = TEXELS;
     let level = |n: u32, all: u32| (255.0 * (n as f32 + 0.5) / all as f32).round() as u8;
     let texels: Vec<u32> = (0..width * height)
@@ -29,13 +22,7 @@ pub fn image(rig: &Rig) -> Image {
             u32::from_le_bytes([red, green, 77, 255])
         })
         .collect();
-    let buffer = Buffer::storage(&rig.gpu, "texels", 4 * texels.len() as u64).unwrap();
-    rig.gpu.write(&buffer, &texels).unwrap();
-    let image = Image::new(&rig.gpu, "panel", desc).unwrap();
-    let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();
-    rec.copy_to_image(&buffer, &image).unwrap();
-    rig.gpu.submit(rec).unwrap().wait().unwrap();
-    image
+    rig.image(TEXELS, &texels)
 }
 
 /// An eye with an oblique line of sight.
@@ -160,12 +147,7 @@ fn a_glove_is_seen_before_it() {
             .stage_from_panel
             .transform_point3(Vec3::new(x, 0.02, z))
     };
-    let finger = Bone {
-        ends: [at(-0.2, 0.08), at(0.2, -0.08)],
-        radii: [0.012; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    };
+    let finger = Bone::new(Finish::Glove, [at(-0.2, 0.08), at(0.2, -0.08)], [0.012; 2]);
     let draw = |panel: Option<Panel<'_>>, hand: &[Bone]| {
         rig.draw(&FrameDesc {
             panel,
@@ -198,20 +180,7 @@ fn a_glove_is_seen_before_it() {
 #[test]
 fn glass_is_seen_before_it() {
     let mut rig = Rig::new(EXTENT, 1);
-    let (radius, height) = (0.03, 0.12);
-    let beaker = VesselDesc {
-        inner: vec![
-            [0.0, 0.002],
-            [radius - 0.002, 0.002],
-            [radius - 0.002, height],
-        ],
-        outer: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
-        ..VesselDesc::default()
-    };
-    rig.set_scene(&SceneDesc {
-        vessels: vec![beaker],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![beaker(0.03, 0.12)]);
     let (view, image) = (view(), image(&rig));
     let panel = panel(&view, &image, 0.7);
     let draw = |at: Vec3| {

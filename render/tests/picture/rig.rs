@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
-use vitriol_gpu::{Buffer, QueueKind};
+use vitriol_gpu::{Buffer, Image, ImageDesc, NoUninit, QueueKind, vk};
 use vitriol_render::camera::NEAR;
 use vitriol_render::{
-    Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, View,
+    Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, VesselDesc, View,
 };
 use vitriol_shaders::Library;
 use vitriol_tests::gpu::{self, Watched};
@@ -71,10 +71,39 @@ impl Rig {
         self.renderer.set_scene(scene).unwrap();
     }
 
+    /// A scene of these vessels alone.
+    pub fn set_vessels(&mut self, vessels: Vec<VesselDesc>) {
+        self.set_scene(&SceneDesc {
+            vessels,
+            ..SceneDesc::default()
+        });
+    }
+
     pub fn buffer(&self, label: &str, data: &[[f32; 4]]) -> Buffer {
+        self.filled(label, data)
+    }
+
+    /// A buffer of any data.
+    pub fn filled<T: NoUninit>(&self, label: &str, data: &[T]) -> Buffer {
         let buffer = Buffer::storage(&self.gpu, label, size_of_val(data) as u64).unwrap();
         self.gpu.write(&buffer, data).unwrap();
         buffer
+    }
+
+    /// An image of these texels, RGBA from the lowest byte on, rows from the top.
+    pub fn image(&self, extent: [u32; 2], texels: &[u32]) -> Image {
+        let desc = ImageDesc {
+            extent,
+            layers: 1,
+            format: vk::Format::R8G8B8A8_UNORM,
+            usage: vk::ImageUsageFlags::SAMPLED,
+        };
+        let buffer = self.filled("texels", texels);
+        let image = Image::new(&self.gpu, "panel", desc).unwrap();
+        let mut rec = self.gpu.recorder(QueueKind::Main).unwrap();
+        rec.copy_to_image(&buffer, &image).unwrap();
+        self.gpu.submit(rec).unwrap().wait().unwrap();
+        image
     }
 
     /// Draws a frame.
@@ -162,6 +191,20 @@ pub const LEFT_QUARTER: [[f32; 2]; 6] = [
     [0.25, 1.0],
     [0.0, 1.0],
 ];
+
+/// A cylinder of glass with these radii of its inside and its outside, a floor so thick and a rim so high, m.
+pub fn cylinder([inner, outer]: [f64; 2], floor: f64, height: f64) -> VesselDesc {
+    VesselDesc {
+        inner: vec![[0.0, floor], [inner, floor], [inner, height]],
+        outer: vec![[0.0, 0.0], [outer, 0.0], [outer, height]],
+        ..VesselDesc::default()
+    }
+}
+
+/// Light as it is displayed: K. Narkowicz's fit of ACES.
+pub fn displayed(light: f64) -> f64 {
+    light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
+}
 
 /// Linear light of a level of sRGB (IEC 61966-2-1).
 pub fn linear(level: u8) -> f64 {

@@ -1,6 +1,6 @@
 //! Light, glass and scale of the whole picture.
 
-use crate::rig::{Rig, ray};
+use crate::rig::{Rig, cylinder, ray};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_render::{
     Bone, ColourBy, Finish, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
@@ -10,11 +10,7 @@ const EXTENT: [u32; 2] = [320, 180];
 const ASPECT: f32 = 16.0 / 9.0;
 
 fn beaker() -> VesselDesc {
-    VesselDesc {
-        inner: vec![[0.0, 0.002], [0.033, 0.002], [0.033, 0.096]],
-        outer: vec![[0.0, 0.0], [0.035, 0.0], [0.035, 0.096]],
-        ..VesselDesc::default()
-    }
+    cylinder([0.033, 0.035], 0.002, 0.096)
 }
 
 fn luminance(pixel: &[u8]) -> f64 {
@@ -187,12 +183,11 @@ fn another_length_scale_gives_the_same_picture() {
         let positions = rig.buffer("positions", &[position.extend(1.0).to_array()]);
         let velocities = rig.buffer("velocities", &[[0.7 / scale, 0.0, 0.0, 0.0]]);
         let vessels = [Affine3A::from_translation(at)];
-        let finger = Bone {
-            ends: [Vec3::new(0.05, 0.80, -0.38), Vec3::new(0.08, 0.84, -0.40)],
-            radii: [0.012, 0.009],
-            finish: Finish::Glove,
-            stain: 0.0,
-        };
+        let finger = Bone::new(
+            Finish::Glove,
+            [Vec3::new(0.05, 0.80, -0.38), Vec3::new(0.08, 0.84, -0.40)],
+            [0.012, 0.009],
+        );
         rig.draw(&FrameDesc {
             vessels: &vessels,
             particles: Some(ParticleSource {

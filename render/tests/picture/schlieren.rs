@@ -3,10 +3,10 @@
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
 use crate::panel::image;
-use crate::rig::{Rig, linear, ray};
+use crate::rig::{Rig, cylinder, linear, ray};
 use glam::{Affine3A, DVec2, Vec3};
 use vitriol_gpu::Image;
-use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
+use vitriol_render::{Fov, FrameDesc, Panel, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Radius of the liquid, and of the glass, m.
@@ -25,14 +25,7 @@ const ACID: f64 = 0.0975 / 0.98;
 
 fn tank() -> Rig {
     let mut rig = clear_rig(EXTENT);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.05]],
-            outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
-            ..VesselDesc::default()
-        }],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![cylinder([RADIUS, OUTER], FLOOR, 0.05)]);
     rig
 }
 

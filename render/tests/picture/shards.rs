@@ -4,7 +4,7 @@ use crate::glass::beaker;
 use crate::rig::{Picture, Rig, ray};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use std::f64::consts::TAU;
-use vitriol_render::{Fov, FrameDesc, SceneDesc, ShardDesc, View};
+use vitriol_render::{Fov, FrameDesc, ShardDesc, View};
 
 const EXTENT: [u32; 2] = [240, 240];
 const RADIUS: f64 = 0.035;
@@ -14,10 +14,7 @@ const PLACE: Vec3 = Vec3::new(0.1, 0.75, -0.4);
 
 fn rig() -> Rig {
     let mut rig = Rig::new(EXTENT, 1);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![beaker(RADIUS, HEIGHT)],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![beaker(RADIUS, HEIGHT)]);
     rig
 }
 

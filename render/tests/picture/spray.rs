@@ -4,7 +4,6 @@ use crate::liquid::{Liquid, MASS, draw, frame, rig};
 use crate::rig::{Picture, Rig, linear};
 use glam::Vec3;
 use std::f64::consts::PI;
-use vitriol_gpu::Buffer;
 use vitriol_render::{Bone, Finish, Fov, FrameDesc, RestingDrop, SceneDesc, SurfaceFilter, View};
 use vitriol_shaders::layout::{Bubble, Drops};
 
@@ -78,14 +77,9 @@ fn drawn_with(
         };
     }
     let mut liquid = Liquid::new(rig, &[], |_| 0.0);
-    let buffer = |label, bytes: usize| Buffer::storage(&rig.gpu, label, bytes as u64).unwrap();
-    let of_drops = buffer("drops", size_of_val(&drops[..]));
-    rig.gpu.write(&of_drops, &drops).unwrap();
+    let of_drops = rig.filled("drops", &drops);
     let count = places.len().max(1);
-    let bubbles = buffer("bubbles", count * size_of::<Bubble>());
-    rig.gpu
-        .write(&bubbles, &vec![Bubble::default(); count])
-        .unwrap();
+    let bubbles = rig.filled("bubbles", &vec![Bubble::default(); count]);
     liquid.bubbles = Some((bubbles, count as u32));
     liquid.drops = Some(of_drops);
     let frame = FrameDesc {
@@ -277,12 +271,11 @@ fn drops_of_a_film_are_about_their_bubble() {
 fn a_fine_drop_makes_no_hole_in_a_glove() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
     rig.set_scene(&SceneDesc::laboratory(Vec::new(), 0.75, 1.0));
-    let finger = [Bone {
-        ends: [-0.1, 0.1].map(|x| Vec3::new(x, 1.0, -DISTANCE - 0.1)),
-        radii: [0.04; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    }];
+    let finger = [Bone::new(
+        Finish::Glove,
+        [-0.1, 0.1].map(|x| Vec3::new(x, 1.0, -DISTANCE - 0.1)),
+        [0.04; 2],
+    )];
     let radius = (0.2 / FOCAL) as f32 * DISTANCE;
     let with = |places: &[[f32; 2]]| drawn_before(&rig, &finger, JET, places, radius, 1.0);
     let (glove, drops) = (

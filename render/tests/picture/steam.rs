@@ -1,9 +1,9 @@
 //! Steam and the visibility mask.
 
-use crate::rig::{LEFT_QUARTER, Picture, Rig, linear, ray};
+use crate::rig::{LEFT_QUARTER, Picture, Rig, cylinder, displayed, linear, ray};
 use glam::{Affine3A, Vec3};
-use vitriol_gpu::{Buffer, Image, ImageDesc, QueueKind, vk};
-use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, SteamSource, VesselDesc, View};
+use vitriol_gpu::Image;
+use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, SteamSource, View};
 use vitriol_shaders::layout::Puff;
 
 const EXTENT: [u32; 2] = [320, 180];
@@ -39,8 +39,7 @@ fn puffs_fade_against_what_is_there() {
             depth: -(1.0 - opacity).ln(),
             ..Puff::default()
         };
-        let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
-        rig.gpu.write(&puffs, &[puff]).unwrap();
+        let puffs = rig.filled("puffs", &[puff]);
         let steam = Some(SteamSource {
             puffs: &puffs,
             count: 1,
@@ -81,8 +80,7 @@ fn puffs_fade_against_what_is_there() {
 fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f64)> {
     let mut all = [Puff::default(); 6];
     all[index] = puff;
-    let puffs = Buffer::storage(&rig.gpu, "puffs", size_of_val(&all) as u64).unwrap();
-    rig.gpu.write(&puffs, &all).unwrap();
+    let puffs = rig.filled("puffs", &all);
     let pictures = [0_u32, 0xffff_ffff].map(|colour| {
         let image = even(rig, colour);
         let behind = Affine3A::from_translation(Vec3::new(0.0, 0.0, -0.4));
@@ -110,19 +108,7 @@ fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f
 
 /// An image of one colour.
 pub fn even(rig: &Rig, colour: u32) -> Image {
-    let desc = ImageDesc {
-        extent: [1, 1],
-        layers: 1,
-        format: vk::Format::R8G8B8A8_UNORM,
-        usage: vk::ImageUsageFlags::SAMPLED,
-    };
-    let buffer = Buffer::storage(&rig.gpu, "texel", 4).unwrap();
-    rig.gpu.write(&buffer, &[colour | 0xff00_0000]).unwrap();
-    let image = Image::new(&rig.gpu, "panel", desc).unwrap();
-    let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();
-    rec.copy_to_image(&buffer, &image).unwrap();
-    rig.gpu.submit(rec).unwrap().wait().unwrap();
-    image
+    rig.image([1, 1], &[colour | 0xff00_0000])
 }
 
 /// Over its disc a puff has on the mean its own optical depth, and at one distance from its middle here more and there less.
@@ -196,8 +182,6 @@ fn mist_is_bright_against_the_window() {
         let law = |g: f64| {
             (1.0 - g * g) / 4.0 / (1.0 + g * g - 2.0 * g * f64::from(turned.cos())).powf(1.5)
         };
-        let displayed =
-            |light: f64| light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
         let [least, most] = [0.75, 0.85].map(|g| displayed(0.38 + window * law(g)));
         let [least, most] = [least.min(most), least.max(most)];
         eprintln!("{turned}: {found} of {least} to {most}");
@@ -212,15 +196,8 @@ fn mist_is_bright_against_the_window() {
 #[test]
 fn steam_stays_in_its_vessel() {
     let mut rig = rig();
-    let (inner, outer) = (0.02, 0.022);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, 0.002], [inner, 0.002], [inner, 0.1]],
-            outer: vec![[0.0, 0.0], [outer, 0.0], [outer, 0.1]],
-            ..VesselDesc::default()
-        }],
-        ..SceneDesc::default()
-    });
+    let inner = 0.02;
+    rig.set_vessels(vec![cylinder([inner.into(), 0.022], 0.002, 0.1)]);
     let foot = Vec3::new(0.0, 0.75, -0.4);
     let middle = foot + Vec3::Y * 0.05;
     let eye = middle + Vec3::Z * 0.3;
@@ -232,8 +209,7 @@ fn steam_stays_in_its_vessel() {
         depth: 2.0,
         ..Puff::default()
     };
-    let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
-    rig.gpu.write(&puffs, &[puff]).unwrap();
+    let puffs = rig.filled("puffs", &[puff]);
     let draw = |count: u32| {
         rig.draw(&FrameDesc {
             vessels: &vessels,

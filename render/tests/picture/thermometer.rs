@@ -16,16 +16,15 @@ const FOOT: Vec3 = Vec3::new(0.05, 0.8, -0.4);
 fn stem(reading: f32, turn: Quat) -> Bone {
     let inside = 0.5 * (LENGTH - SCALE);
     let at = |y: f32| FOOT + turn * (y * Vec3::Y);
-    Bone {
-        ends: [at(RADIUS), at(LENGTH - RADIUS)],
-        radii: [RADIUS; 2],
-        finish: Finish::Scale(Scale {
+    Bone::new(
+        Finish::Scale(Scale {
             celsius: ENDS,
             heights: [inside - RADIUS, LENGTH - inside - RADIUS],
             reading,
         }),
-        stain: 0.0,
-    }
+        [at(RADIUS), at(LENGTH - RADIUS)],
+        [RADIUS; 2],
+    )
 }
 
 /// The place of a temperature on the stem, by a rule of equal parts.

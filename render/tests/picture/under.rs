@@ -2,7 +2,7 @@
 //! law.
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
-use crate::rig::{Picture, linear, ray};
+use crate::rig::{Picture, cylinder, displayed, linear, ray};
 use glam::{Affine3A, DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
 use vitriol_render::{Fov, SceneDesc, SurfaceFilter, VesselDesc, View};
@@ -17,11 +17,7 @@ const GLASS: f64 = 1.47;
 
 /// A cylinder with a base of that thickness, and water in it up to that many layers of particles.
 fn beaker(base: f64) -> VesselDesc {
-    VesselDesc {
-        inner: vec![[0.0, base], [RADIUS, base], [RADIUS, 0.06]],
-        outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.06]],
-        ..VesselDesc::default()
-    }
+    cylinder([RADIUS, OUTER], base, 0.06)
 }
 
 fn water(foot: Vec3, base: f64, layers: usize) -> Vec<Vec3> {
@@ -41,8 +37,7 @@ fn undone(shown: f64) -> f64 {
     let mut ends = [0.0, 40.0];
     for _ in 0..60 {
         let light = 0.5 * (ends[0] + ends[1]);
-        let displayed = light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
-        ends[usize::from(displayed > shown)] = light;
+        ends[usize::from(displayed(light) > shown)] = light;
     }
     ends[0]
 }

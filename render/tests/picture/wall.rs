@@ -3,9 +3,9 @@
 //! own outline.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
-use crate::rig::{linear, ray};
+use crate::rig::{cylinder, displayed, linear, ray};
 use glam::{Affine3A, Vec3};
-use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
+use vitriol_render::{Fov, FrameDesc, SurfaceFilter, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Radius of the liquid, and of the glass, m.
@@ -19,21 +19,10 @@ const TINTS: [[f64; 2]; 2] = [[0.40, 0.92], [0.96, 0.22]];
 /// Red and blue light of the hemispheres about a level ray: half of the ceiling's and half of the floor's.
 const LIGHT: [f64; 2] = [0.38, 0.40];
 
-fn displayed(light: f64) -> f64 {
-    light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
-}
-
 #[test]
 fn a_full_cylinder_is_a_lens() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, 0.002], [RADIUS, 0.002], [RADIUS, 0.05]],
-            outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
-            ..VesselDesc::default()
-        }],
-        ..SceneDesc::default()
-    });
+    rig.set_vessels(vec![cylinder([RADIUS, OUTER], 0.002, 0.05)]);
     let mut places = Vec::new();
     for n in 0..9 * 16 * 16 {
         let [x, y, z] = [n % 16, n / 256, n / 16 % 16];

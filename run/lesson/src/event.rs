@@ -83,12 +83,6 @@ impl Pour {
     pub fn lasted_s(&self) -> f64 {
         self.until_s - self.t_s
     }
-
-    /// Mean flow rate, m³/s.
-    pub fn mean_m3_s(&self) -> f64 {
-        // A single drop arrives in no time; its rate is taken over half a second.
-        self.volume_m3 / (self.until_s - self.t_s).max(0.5)
-    }
 }
 
 /// Liquid in a flask.

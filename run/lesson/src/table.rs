@@ -2,7 +2,7 @@
 
 use csv::{Terminator, WriterBuilder};
 
-use crate::{Attempt, Cause, Incident, Skin, Surface, What};
+use crate::{Attempt, Cause, Incident, What};
 
 /// Its columns: units are in brackets. A cell that an incident does not have is empty.
 const HEADER: [&str; 20] = [
@@ -57,36 +57,42 @@ pub fn incidents_csv(attempts: &[Attempt]) -> Result<Vec<u8>, TableError> {
 }
 
 fn row(number: u32, attempt: &Attempt, incident: &Incident) -> [String; HEADER.len()] {
-    let cells = Cells::of(&incident.what);
-    let cause = incident.cause.flask();
-    let [x, y, z] = incident.place_m;
-    let number_of =
-        |value: Option<f64>, factor| value.map_or_else(String::new, |it| rounded(it * factor));
-    let yes = |value: Option<bool>| {
+    // Its fields have the names of a recording's `/events`. A field that its kind does not have is null.
+    let what = serde_json::to_value(&incident.what).unwrap_or_default();
+    let text = |field: &str| what[field].as_str().unwrap_or_default();
+    let scaled = |field: &str, factor: f64| {
+        let value = what[field].as_f64();
+        value.map_or_else(String::new, |it| rounded(it * factor))
+    };
+    let yes = |field: &str| {
+        let value = what[field].as_bool();
         value
             .map_or("", |it| if it { "yes" } else { "no" })
             .to_owned()
     };
+    let acid = match what["acid"].is_null() {
+        true => "met_acid",
+        false => "acid",
+    };
+    let [x, y, z] = incident.place_m;
     [
         number.to_string(),
         spreadsheet_text(&attempt.scene),
         rounded(incident.t_s),
         rounded(incident.until_s),
-        cells.kind.to_owned(),
-        cause_name(&incident.cause).to_owned(),
-        cause.map_or_else(String::new, |it| spreadsheet_text(it)),
-        cells
-            .flask
-            .map_or_else(String::new, |it| spreadsheet_text(it)),
-        cells.place.to_owned(),
-        number_of(cells.volume_m3, 1e6),
-        number_of(cells.acid, 100.0),
-        number_of(cells.temperature_c, 1.0),
-        number_of(cells.rate_m3_s, 1e6),
-        number_of(cells.limit_m3_s, 1e6),
-        number_of(cells.speed_m_s, 1.0),
-        yes(cells.protected),
-        yes(cells.broke),
+        incident.what.kind().to_owned(),
+        incident.cause.name().to_owned(),
+        spreadsheet_text(incident.cause.flask().unwrap_or_default()),
+        spreadsheet_text(text("flask")),
+        [text("surface"), text("skin")].concat(),
+        scaled("volume_m3", 1e6),
+        scaled(acid, 100.0),
+        scaled("temperature_c", 1.0),
+        scaled("rate_m3_s", 1e6),
+        scaled("limit_m3_s", 1e6),
+        scaled("speed_m_s", 1.0),
+        yes("protected"),
+        yes("broke"),
         rounded(x),
         rounded(y),
         rounded(z),
@@ -120,129 +126,31 @@ impl What {
 
     /// Its kind, as in a recording's `/events`.
     pub fn kind(&self) -> &'static str {
-        Cells::of(self).kind
-    }
-}
-
-/// Cells of a row that depend on the kind of incident.
-#[derive(Default)]
-struct Cells<'a> {
-    kind: &'static str,
-    flask: Option<&'a String>,
-    place: &'static str,
-    volume_m3: Option<f64>,
-    acid: Option<f64>,
-    temperature_c: Option<f64>,
-    rate_m3_s: Option<f64>,
-    limit_m3_s: Option<f64>,
-    speed_m_s: Option<f64>,
-    protected: Option<bool>,
-    broke: Option<bool>,
-}
-
-impl<'a> Cells<'a> {
-    fn of(what: &'a What) -> Self {
-        match what {
-            What::WaterIntoAcid {
-                flask,
-                met_acid,
-                volume_m3,
-            } => Self {
-                kind: "water-into-acid",
-                flask: Some(flask),
-                volume_m3: Some(*volume_m3),
-                acid: Some(*met_acid),
-                ..Self::default()
-            },
-            What::PouredTooFast {
-                flask,
-                rate_m3_s,
-                limit_m3_s,
-            } => Self {
-                kind: "poured-too-fast",
-                flask: Some(flask),
-                rate_m3_s: Some(*rate_m3_s),
-                limit_m3_s: Some(*limit_m3_s),
-                ..Self::default()
-            },
-            What::BoiledOver {
-                flask,
-                volume_m3,
-                acid,
-            } => Self {
-                kind: "boiled-over",
-                flask: Some(flask),
-                volume_m3: Some(*volume_m3),
-                acid: Some(*acid),
-                ..Self::default()
-            },
-            What::Hot {
-                flask,
-                temperature_c,
-            } => Self {
-                kind: "hot",
-                flask: Some(flask),
-                temperature_c: Some(*temperature_c),
-                ..Self::default()
-            },
-            What::Spilt {
-                surface,
-                volume_m3,
-                acid,
-            } => Self {
-                kind: "spilt",
-                place: match surface {
-                    Surface::Bench => "bench",
-                    Surface::Floor => "floor",
-                },
-                volume_m3: Some(*volume_m3),
-                acid: Some(*acid),
-                ..Self::default()
-            },
-            What::OnSkin {
-                skin,
-                volume_m3,
-                acid,
-                temperature_c,
-                protected,
-            } => Self {
-                kind: "on-skin",
-                place: match skin {
-                    Skin::LeftHand => "left-hand",
-                    Skin::RightHand => "right-hand",
-                    Skin::Face => "face",
-                },
-                volume_m3: Some(*volume_m3),
-                acid: Some(*acid),
-                temperature_c: *temperature_c,
-                protected: Some(*protected),
-                ..Self::default()
-            },
-            What::Dropped {
-                flask,
-                speed_m_s,
-                broke,
-            } => Self {
-                kind: "dropped",
-                flask: Some(flask),
-                speed_m_s: Some(*speed_m_s),
-                broke: Some(*broke),
-                ..Self::default()
-            },
+        match self {
+            Self::WaterIntoAcid { .. } => "water-into-acid",
+            Self::PouredTooFast { .. } => "poured-too-fast",
+            Self::BoiledOver { .. } => "boiled-over",
+            Self::Hot { .. } => "hot",
+            Self::Spilt { .. } => "spilt",
+            Self::OnSkin { .. } => "on-skin",
+            Self::Dropped { .. } => "dropped",
         }
     }
 }
 
-fn cause_name(cause: &Cause) -> &'static str {
-    match cause {
-        Cause::Pouring { .. } => "pouring",
-        Cause::Boiling { .. } => "boiling",
-        Cause::Breaking { .. } => "breaking",
-        Cause::LettingGo { .. } => "letting-go",
-        Cause::Splashing { .. } => "splashing",
-        Cause::Mixing { .. } => "mixing",
-        Cause::Swirling { .. } => "swirling",
-        Cause::Heating { .. } => "heating",
-        Cause::Unknown => "unknown",
+impl Cause {
+    /// Its name, as in a recording's `/events`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Pouring { .. } => "pouring",
+            Self::Boiling { .. } => "boiling",
+            Self::Breaking { .. } => "breaking",
+            Self::LettingGo { .. } => "letting-go",
+            Self::Splashing { .. } => "splashing",
+            Self::Mixing { .. } => "mixing",
+            Self::Swirling { .. } => "swirling",
+            Self::Heating { .. } => "heating",
+            Self::Unknown => "unknown",
+        }
     }
 }

@@ -92,7 +92,9 @@ impl Attempt {
     fn says(&self, pour: &Pour) -> bool {
         self.incidents.iter().any(|incident| match &incident.what {
             What::WaterIntoAcid { .. } => self.pour_of(incident) == Some(pour),
-            What::Spilt { .. } => pour.into.is_none() && incident.cause.flask() == Some(&pour.from),
+            What::Spilt { .. } => {
+                pour.into.is_none() && incident.cause.flask() == Some(&*pour.from)
+            }
             _ => false,
         })
     }
@@ -100,7 +102,7 @@ impl Attempt {
 
 impl Cause {
     /// The flask that it names.
-    pub(crate) fn flask(&self) -> Option<&String> {
+    pub fn flask(&self) -> Option<&str> {
         match self {
             Self::Pouring { from: flask }
             | Self::Boiling { flask }
@@ -302,7 +304,7 @@ impl Texts {
             (_, Cause::Heating { .. }) => &causes.heating,
             (_, Cause::Unknown) => &causes.unknown,
         };
-        let flask = incident.cause.flask().map_or("", String::as_str);
+        let flask = incident.cause.flask().unwrap_or_default();
         Some(self.with_flasks(template, &attempt.glass, &[("flask", flask)], &[]))
     }
 

@@ -16,7 +16,7 @@ use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 use vitriol_run::Failure;
 use vitriol_xr::{
     Around, FrameInfo, Hand, Headset, HeadsetError, HeadsetFrame, Line, Pointed, Pose, PoseFrame,
-    SessionState, Shown, Targets, Turn, View,
+    Shown, Targets, Turn, View,
 };
 
 use self::hands::Hands;
@@ -206,17 +206,15 @@ impl Desk {
         let simulated = self.around.simulated(passed);
         let hands: [Hand; 2] = self.hands.advance(&controls, &self.around, simulated);
         PoseFrame {
-            step: 0,
-            time_ns: 0,
             stage_from_view: USER,
             hands,
-            scenario: Vec::new(),
             info: FrameInfo {
                 xr_time: EPOCH + (1e9 * self.clock.time()).round() as i64,
                 period_ns: self.clock.period_ns(),
                 fov: [self.view.fov(); 2],
-                session_state: SessionState::Focused,
+                ..FrameInfo::default()
             },
+            ..PoseFrame::default()
         }
     }
 }

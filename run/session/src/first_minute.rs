@@ -234,6 +234,16 @@ impl Known {
 mod tests {
     use super::*;
 
+    /// A flask that is whole.
+    fn whole(held: bool, height: f32, upright: f32) -> Handled {
+        Handled {
+            held,
+            height,
+            upright,
+            broken: false,
+        }
+    }
+
     /// Two flasks on a table, 90 frames a second; the first is the one that is handled.
     struct Bench {
         minute: FirstMinute,
@@ -251,19 +261,8 @@ mod tests {
         }
 
         fn frame(&mut self, held: bool, height: f32, upright: f32) {
-            let other = Handled {
-                held: false,
-                height: 0.75,
-                upright: 1.0,
-                broken: false,
-            };
-            let flask = Handled {
-                held,
-                height,
-                upright,
-                broken: false,
-            };
-            self.minute.update(&[flask, other], self.time);
+            let flasks = [whole(held, height, upright), whole(false, 0.75, 1.0)];
+            self.minute.update(&flasks, self.time);
             self.time += 1.0 / 90.0;
         }
 
@@ -393,13 +392,7 @@ mod tests {
     fn of_two_flasks_the_sign_stays_with_the_one_that_was_taken_first() {
         let mut minute = FirstMinute::default();
         let mut hold = |held: [bool; 2]| {
-            let flask = |held| Handled {
-                held,
-                height: 0.75,
-                upright: 1.0,
-                broken: false,
-            };
-            minute.update(&held.map(flask), 0.0);
+            minute.update(&held.map(|held| whole(held, 0.75, 1.0)), 0.0);
             minute.flask()
         };
         assert_eq!(hold([false, false]), None);
@@ -418,10 +411,8 @@ mod tests {
         assert_eq!(bench.minute.next(true), Some(Lesson::PutDown));
         for _ in 0..90 {
             let gone = Handled {
-                held: false,
-                height: -1000.0,
-                upright: 1.0,
                 broken: true,
+                ..whole(false, -1000.0, 1.0)
             };
             bench.minute.update(&[gone, Handled::default()], bench.time);
             bench.time += 1.0 / 90.0;

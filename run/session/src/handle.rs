@@ -161,11 +161,8 @@ impl Handles {
                 true => Finish::HandleAtHand,
                 false => Finish::Handle,
             };
-            let bone = |ends: [Vec3; 2], radius: f32| Bone {
-                ends: ends.map(|end| middles[n] + end),
-                radii: [radius; 2],
-                stain: 0.0,
-                finish,
+            let bone = |ends: [Vec3; 2], radius: f32| {
+                Bone::new(finish, ends.map(|end| middles[n] + end), [radius; 2])
             };
             let end = HALF_LENGTH * Vec3::X;
             let post = |x: Vec3| bone([x, x + OFF * Vec3::NEG_Z], POST);

@@ -88,19 +88,7 @@ impl Buttons {
 mod tests {
     use super::*;
     use glam::{Quat, Vec3};
-    use vitriol_xr::FrameInfo;
     use vitriol_xr::track::{Existing, TrackMetadata, TrackWriter};
-
-    fn frame() -> PoseFrame {
-        PoseFrame {
-            step: 0,
-            time_ns: 0,
-            stage_from_view: Pose::IDENTITY,
-            hands: [Hand::default(), Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
-        }
-    }
 
     /// What comes out can be recorded, whatever went in.
     #[test]
@@ -109,7 +97,7 @@ mod tests {
         let file = dir.path().join("x.mcap");
         let metadata = TrackMetadata::default();
         let mut writer = TrackWriter::create(&file, &metadata, Existing::Refuse).unwrap();
-        let mut good = frame();
+        let mut good = PoseFrame::default();
         good.hands[1].valid = true;
         good.hands[1].stage_from_grip = Pose::new(Vec3::ONE, Quat::from_rotation_x(0.5));
         let mut bad = good.clone();

@@ -53,40 +53,22 @@ pub fn decision(key: char) -> Option<Decision> {
 }
 
 /// What mouse and keyboard do in the window of a session without a headset; for a terminal, behind [`lines`].
-pub fn mouse_lines() -> String {
-    let mut text = String::from("mouse and keys, in the window:");
-    for (control, does) in [
-        (
-            "main button",
-            "takes a flask, carries it while held, puts it down; presses the panel",
-        ),
-        (
-            "right button",
-            "held and moved to a side: tilts to it what the hand holds",
-        ),
-        ("Q, E", "tilt to the left, to the right"),
-        ("W", "held: swirls what the hand holds"),
-        ("wheel", "raises and lowers the hand"),
-        (
-            "wheel pressed",
-            "moved: turns the view; clicked: the other hand",
-        ),
-        ("arrows", "move the hand; with Ctrl the view"),
-        ("Space", "takes and puts down, without the mouse"),
-        ("Tab", "the other hand"),
-        ("G", "pulls the other hand's glove off"),
-        ("R, V", "the panel, the bench from the side; again: back"),
-        (
-            "B, N, 1 …",
-            "held for a second: a new start, the next step, a scene",
-        ),
-        ("F11", "the whole screen"),
-        ("Esc", "end, pressed twice"),
-    ] {
-        text += &format!("\n  {control:<13}  {does}");
-    }
-    text
-}
+pub const MOUSE_LINES: &str = "\
+mouse and keys, in the window:
+  main button    takes a flask, carries it while held, puts it down; presses the panel
+  right button   held and moved to a side: tilts to it what the hand holds
+  Q, E           tilt to the left, to the right
+  W              held: swirls what the hand holds
+  wheel          raises and lowers the hand
+  wheel pressed  moved: turns the view; clicked: the other hand
+  arrows         move the hand; with Ctrl the view
+  Space          takes and puts down, without the mouse
+  Tab            the other hand
+  G              pulls the other hand's glove off
+  R, V           the panel, the bench from the side; again: back
+  B, N, 1 …      held for a second: a new start, the next step, a scene
+  F11            the whole screen
+  Esc            end, pressed twice";
 
 /// The keys and what they do, for a terminal, with the scenes' titles in `texts`; whether one lets a browser in, and how a lesson is
 /// gone through, if one is. Where a `pointer` moves the hands there is nothing to recentre.

@@ -200,12 +200,7 @@ impl Panel {
 
     /// The ray of the hand that points here, in the scene's stage.
     pub fn ray(&self) -> Option<(Side, Bone)> {
-        let bone = |ends| Bone {
-            ends,
-            radii: [RAY; 2],
-            finish: Finish::Ray,
-            stain: 0.0,
-        };
+        let bone = |ends| Bone::new(Finish::Ray, ends, [RAY; 2]);
         self.ray.map(|(side, ends)| (side, bone(ends)))
     }
 

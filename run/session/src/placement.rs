@@ -203,7 +203,7 @@ fn as_text(stage_from_scene: &Pose) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vitriol_xr::{FrameInfo, Hand};
+    use vitriol_xr::Hand;
 
     fn head(y: f32, yaw: f32, pitch: f32) -> Pose {
         let turned = Quat::from_rotation_y(yaw) * Quat::from_rotation_x(pitch);
@@ -252,12 +252,8 @@ mod tests {
 
     fn seen(stage_from_view: Pose) -> PoseFrame {
         PoseFrame {
-            step: 0,
-            time_ns: 0,
             stage_from_view,
-            hands: [Hand::default(), Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
+            ..PoseFrame::default()
         }
     }
 
@@ -332,12 +328,8 @@ mod tests {
             ..Hand::default()
         };
         let frame = PoseFrame {
-            step: 0,
-            time_ns: 0,
-            stage_from_view: head(1.3, 1.0, 0.0),
             hands: [hand.clone(), Hand::default()],
-            scenario: Vec::new(),
-            info: FrameInfo::default(),
+            ..seen(head(1.3, 1.0, 0.0))
         };
         let seen = in_scene(&frame, &placed);
         let back = placed.compose(&seen.hands[0].stage_from_grip);

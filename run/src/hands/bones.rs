@@ -39,12 +39,7 @@ const FLARE: f32 = 0.003;
 pub fn bones_of(joints: &Joints) -> Vec<Bone> {
     let at = |joint: usize| joints[joint].0;
     let radius = |joint: usize| joints[joint].1.clamp(RADII[0], RADII[1]);
-    let bone = |ends: [Vec3; 2], radii: [f32; 2]| Bone {
-        ends,
-        radii,
-        finish: Finish::Glove,
-        stain: 0.0,
-    };
+    let bone = |ends: [Vec3; 2], radii: [f32; 2]| Bone::new(Finish::Glove, ends, radii);
     let between = |a: usize, b: usize| bone([at(a), at(b)], [radius(a), radius(b)]);
 
     let mut bones: Vec<Bone> = (THUMB..THUMB + THUMB_BONES)
@@ -72,12 +67,11 @@ pub fn bones_of(joints: &Joints) -> Vec<Bone> {
 
 /// The skin between a thumb's first bone and an index finger's.
 pub(super) fn web(root: Vec3, end: Vec3, index: [Vec3; 2]) -> Bone {
-    Bone {
-        ends: [root.lerp(end, 0.35), index[0].lerp(index[1], 0.42)],
-        radii: [WEB; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    }
+    Bone::new(
+        Finish::Glove,
+        [root.lerp(end, 0.35), index[0].lerp(index[1], 0.42)],
+        [WEB; 2],
+    )
 }
 
 /// From the wrist towards the elbow, `across` along the knuckles: two cones side by side.
@@ -86,11 +80,10 @@ fn cuff(wrist: Vec3, knuckle: Vec3, across: Vec3) -> [Bone; 2] {
     let aside = across.reject_from(along).normalize_or(Vec3::X);
     [-0.5, 0.5].map(|side| {
         let start = wrist + side * WRIST_APART * aside;
-        Bone {
-            ends: [start, start + CUFF * along],
-            radii: [WRIST_RADIUS, WRIST_RADIUS + FLARE],
-            finish: Finish::Cuff,
-            stain: 0.0,
-        }
+        Bone::new(
+            Finish::Cuff,
+            [start, start + CUFF * along],
+            [WRIST_RADIUS, WRIST_RADIUS + FLARE],
+        )
     })
 }

@@ -7,12 +7,7 @@ use vitriol_render::Finish;
 use vitriol_sim::solver::Came;
 
 fn bone(ends: [Vec3; 2]) -> Bone {
-    Bone {
-        ends,
-        radii: [0.008; 2],
-        finish: Finish::Glove,
-        stain: 0.0,
-    }
+    Bone::new(Finish::Glove, ends, [0.008; 2])
 }
 
 fn held(hands: [&[Bone]; 2], length_scale: f64) -> Carriers<'_> {

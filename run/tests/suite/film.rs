@@ -47,11 +47,17 @@ fn pattern(frame: u32) -> Vec<u8> {
     rgba
 }
 
-fn make_film(path: &Path) {
+/// A film that has so many of these pictures, and is not finished.
+fn begun(path: &Path, frames: u32, picture: fn(u32) -> Vec<u8>) -> Film {
     let mut film = Film::create(path, WIDTH, HEIGHT, FPS).unwrap();
-    for frame in 0..FRAMES {
-        film.push_rgba(&pattern(frame)).unwrap();
+    for frame in 0..frames {
+        film.push_rgba(&picture(frame)).unwrap();
     }
+    film
+}
+
+fn make_film(path: &Path) {
+    let film = begun(path, FRAMES, pattern);
     assert_eq!(film.finish().unwrap(), path);
 }
 
@@ -130,11 +136,7 @@ const LONGER: u32 = 70;
 fn the_index_has_each_pictures_time_and_key() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
-    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
-    for frame in 0..LONGER {
-        film.push_rgba(&pattern(frame)).unwrap();
-    }
-    film.finish().unwrap();
+    begun(&path, LONGER, pattern).finish().unwrap();
     let film = mp4::tracks(&fs::read(&path).unwrap());
     assert_eq!(film.len(), 1);
     let pictures = &film[0];
@@ -162,10 +164,7 @@ fn the_index_has_each_pictures_time_and_key() {
 fn an_unfinished_film_is_in_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
-    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
-    for frame in 0..LONGER {
-        film.push_rgba(&pattern(frame)).unwrap();
-    }
+    let film = begun(&path, LONGER, pattern);
     // At most four frames wait for the encoder and one is in its hands: that of two seconds is behind it.
     let files: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(files.len(), 1);
@@ -362,11 +361,7 @@ fn wall_and_ring(frame: u32) -> Vec<u8> {
 fn what_moves_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
-    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
-    for frame in 0..FRAMES {
-        film.push_rgba(&wall_and_ring(frame)).unwrap();
-    }
-    film.finish().unwrap();
+    begun(&path, FRAMES, wall_and_ring).finish().unwrap();
     let mut frame = 0;
     decode(&stream(&path), |picture| {
         let centre = middle(frame);

@@ -329,6 +329,7 @@ fn action<T: xr::ActionTy>(
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use vitriol_tests::monado;
+    use vitriol_tests::program::own_name;
 
     use super::super::bindings::{Profile, Use};
     use super::super::system;
@@ -336,8 +337,7 @@ mod tests {
 
     #[test]
     fn monado_takes_the_bindings_of_every_profile() {
-        let name = "session::actions::tests::monado_takes_the_bindings_of_every_profile";
-        let Some(_rig) = monado::enter(name) else {
+        let Some(_rig) = monado::enter(&own_name()) else {
             return;
         };
         let entry = system::entry().unwrap();

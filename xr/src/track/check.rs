@@ -83,59 +83,42 @@ pub fn frame(
 }
 
 fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
+    let refused = |field: &str, problem: String, expected: &str| {
+        Err(Flaw::new(names::FRAME, field, problem, expected))
+    };
     if u32::try_from(frame.step).is_err() {
-        return Err(Flaw::new(
-            names::FRAME,
-            "sequence",
-            "is above 4294967295",
-            "an MCAP sequence number has 32 bits",
-        ));
+        let expected = "an MCAP sequence number has 32 bits";
+        return refused("sequence", "is above 4294967295".into(), expected);
     }
-    if frame.time_ns < 0 {
-        return Err(Flaw::new(
-            names::FRAME,
-            "log_time",
-            "is negative or beyond 292 years",
-            "a track's clock is the simulation's, which starts at 0",
-        ));
+    let time = frame.time_ns;
+    if time < 0 {
+        let problem = "is negative or beyond 292 years".into();
+        let expected = "a track's clock is the simulation's, which starts at 0";
+        return refused("log_time", problem, expected);
     }
-    if frame.time_ns > limits::SECONDS * 1_000_000_000 {
-        return Err(Flaw::new(
-            names::FRAME,
-            "log_time",
-            format!("is {} s", seconds(frame.time_ns)),
-            format!("a track ends after {} s at most", limits::SECONDS),
-        ));
+    if time > limits::SECONDS * 1_000_000_000 {
+        let expected = format!("a track ends after {} s at most", limits::SECONDS);
+        return refused("log_time", format!("is {} s", seconds(time)), &expected);
     }
     let Some((step, time_ns)) = before else {
         return start(frame);
     };
-    if frame.step <= step {
-        return Err(Flaw::new(
-            names::FRAME,
-            "sequence",
-            format!("goes from {step} to {}", frame.step),
-            "each frame has a higher step than the one before: sort the file by log time",
-        ));
+    let now = frame.step;
+    if now <= step {
+        let expected =
+            "each frame has a higher step than the one before: sort the file by log time";
+        return refused("sequence", format!("goes from {step} to {now}"), expected);
     }
-    if frame.time_ns == time_ns {
-        return Err(Flaw::new(
-            names::FRAME,
+    if time <= time_ns {
+        let problem = match time == time_ns {
+            true => format!("is {time_ns} ns in two frames, of steps {step} and {now}"),
+            false => format!("goes backwards, from {time_ns} ns to {time} ns"),
+        };
+        return refused(
             "log_time",
-            format!(
-                "is {time_ns} ns in two frames, of steps {step} and {}",
-                frame.step
-            ),
+            problem,
             "each frame is later than the one before",
-        ));
-    }
-    if frame.time_ns < time_ns {
-        return Err(Flaw::new(
-            names::FRAME,
-            "log_time",
-            format!("goes backwards, from {time_ns} ns to {} ns", frame.time_ns),
-            "each frame is later than the one before",
-        ));
+        );
     }
     Ok(())
 }

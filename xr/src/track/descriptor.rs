@@ -44,23 +44,18 @@ pub fn frame_transforms() -> Vec<u8> {
         "FrameTransforms",
         vec![repeated("transforms", 1, ".foxglove.FrameTransform")],
     );
-    let set = FileDescriptorSet {
-        file: vec![
-            timestamp(),
-            vector(),
-            quaternion(),
-            foxglove(
-                &[
-                    TIMESTAMP,
-                    "foxglove/Vector3.proto",
-                    "foxglove/Quaternion.proto",
-                ],
-                transform,
-            ),
-            foxglove(&["foxglove/FrameTransform.proto"], transforms),
-        ],
-    };
-    set.encode_to_vec()
+    let imports = [
+        TIMESTAMP,
+        "foxglove/Vector3.proto",
+        "foxglove/Quaternion.proto",
+    ];
+    encoded(vec![
+        timestamp(),
+        vector(),
+        quaternion(),
+        foxglove(&imports, transform),
+        foxglove(&["foxglove/FrameTransform.proto"], transforms),
+    ])
 }
 
 /// An encoded `FileDescriptorSet` with [`POINT_CLOUD`] and all that it refers to.
@@ -85,18 +80,8 @@ pub fn point_cloud() -> Vec<u8> {
     let names = [
         "UNKNOWN", "UINT8", "INT8", "UINT16", "INT16", "UINT32", "INT32", "FLOAT32", "FLOAT64",
     ];
-    packed.enum_type.push(EnumDescriptorProto {
-        name: Some("NumericType".into()),
-        value: (0..)
-            .zip(names)
-            .map(|(number, name)| EnumValueDescriptorProto {
-                name: Some(name.into()),
-                number: Some(number),
-                options: None,
-            })
-            .collect(),
-        ..Default::default()
-    });
+    let names = names.map(str::to_owned);
+    packed.enum_type.push(enumeration("NumericType", names));
     let cloud = message(
         "PointCloud",
         vec![
@@ -113,20 +98,15 @@ pub fn point_cloud() -> Vec<u8> {
         "foxglove/PackedElementField.proto",
         "foxglove/Pose.proto",
     ];
-    let set = FileDescriptorSet {
-        file: vec![
-            timestamp(),
-            vector(),
-            quaternion(),
-            foxglove(
-                &["foxglove/Vector3.proto", "foxglove/Quaternion.proto"],
-                pose,
-            ),
-            foxglove(&[], packed),
-            foxglove(&imports, cloud),
-        ],
-    };
-    set.encode_to_vec()
+    let of_pose = ["foxglove/Vector3.proto", "foxglove/Quaternion.proto"];
+    encoded(vec![
+        timestamp(),
+        vector(),
+        quaternion(),
+        foxglove(&of_pose, pose),
+        foxglove(&[], packed),
+        foxglove(&imports, cloud),
+    ])
 }
 
 /// An encoded `FileDescriptorSet` with [`COMPRESSED_VIDEO`] and all that it refers to.
@@ -140,10 +120,7 @@ pub fn compressed_video() -> Vec<u8> {
             field("format", 4, Type::String),
         ],
     );
-    let set = FileDescriptorSet {
-        file: vec![timestamp(), foxglove(&[TIMESTAMP], video)],
-    };
-    set.encode_to_vec()
+    encoded(vec![timestamp(), foxglove(&[TIMESTAMP], video)])
 }
 
 /// An encoded `FileDescriptorSet` with [`MEASUREMENTS`], a message of a double for each name.
@@ -151,7 +128,7 @@ pub fn measurements(names: &[String]) -> Vec<u8> {
     let fields = alike(names, Type::Double);
     let numbers = message("Measurements", fields);
     let file = file("vitriol/measurements.proto", "vitriol", &[], numbers);
-    FileDescriptorSet { file: vec![file] }.encode_to_vec()
+    encoded(vec![file])
 }
 
 /// Google's own timestamp.
@@ -212,21 +189,27 @@ pub fn xr() -> Vec<u8> {
     let switch = message("Switch", alike(&["key", "value"], Type::String));
     let mut xr = file("vitriol/xr.proto", "vitriol.xr", &[], input);
     xr.message_type.extend([fov, frame, switch]);
-    xr.enum_type.push(session_state());
-    FileDescriptorSet { file: vec![xr] }.encode_to_vec()
+    let states = (0..).map_while(|number| SessionState::try_from(number).ok());
+    let states = states.map(|state| format!("{state:?}"));
+    xr.enum_type.push(enumeration("SessionState", states));
+    encoded(vec![xr])
 }
 
-fn session_state() -> EnumDescriptorProto {
+fn encoded(file: Vec<FileDescriptorProto>) -> Vec<u8> {
+    FileDescriptorSet { file }.encode_to_vec()
+}
+
+/// An enumeration of these values, numbered from 0.
+fn enumeration(name: &str, values: impl IntoIterator<Item = String>) -> EnumDescriptorProto {
+    let values = (0..).zip(values);
+    let values = values.map(|(number, name)| EnumValueDescriptorProto {
+        name: Some(name),
+        number: Some(number),
+        options: None,
+    });
     EnumDescriptorProto {
-        name: Some("SessionState".into()),
-        value: (0..)
-            .map_while(|number| SessionState::try_from(number).ok())
-            .map(|state| EnumValueDescriptorProto {
-                name: Some(format!("{state:?}")),
-                number: Some(state as i32),
-                options: None,
-            })
-            .collect(),
+        name: Some(name.into()),
+        value: values.collect(),
         ..Default::default()
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::keyframes::Keyframes;
 use super::{Track, TrackMetadata};
-use crate::{Fov, FrameInfo, Pose, PoseFrame, SessionState};
+use crate::{FrameInfo, Pose, PoseFrame};
 
 impl Keyframes {
     /// Time of frame `step`, s, on a clock of [`rate_hz`](Self::rate_hz).
@@ -30,8 +30,7 @@ impl Keyframes {
             info: FrameInfo {
                 xr_time: time_ns,
                 period_ns: (1e9 / self.rate_hz).round() as i64,
-                fov: [Fov::default(); 2],
-                session_state: SessionState::Focused,
+                ..FrameInfo::default()
             },
         }
     }

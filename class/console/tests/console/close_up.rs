@@ -73,8 +73,7 @@ fn a_program_without_the_camera_is_shown_as_before() {
 /// A page that asks for the glass gets its pictures alone, and the program is asked for them for as long as the page is there.
 #[test]
 fn a_page_that_asks_gets_the_other_camera() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let port = hub.student(card("Ada")).unwrap().unwrap();
     let _ada = FakeStudent::new(port.clone());
     assert!(!port.wanted().close_up);

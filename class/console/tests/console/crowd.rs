@@ -18,8 +18,7 @@ const WAITING: usize = 64 + 2 + PICTURES;
 
 #[test]
 fn ten_pages_see_and_direct() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let student = FakeStudent::in_hub(&hub, "Ada");
     // Each with a code of its own.
     let mut clients: Vec<_> = (0..10).map(|_| Client::new(&hub, &cookie(&hub))).collect();
@@ -72,8 +71,7 @@ fn ten_pages_see_and_direct() {
 
 #[test]
 fn an_order_to_all_goes_to_each_that_can_do_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let students = ["Ada", "Bo"].map(|name| FakeStudent::in_hub(&hub, name));
     let mut client = Client::new(&hub, &cookie(&hub));
     let class = |client: &mut Client, count: usize| loop {
@@ -115,8 +113,7 @@ fn an_order_to_all_goes_to_each_that_can_do_it() {
 
 #[test]
 fn a_card_names_the_gravest_incident_of_the_attempt() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let port = hub.student(card("Ada")).unwrap().unwrap();
     let incident = |attempt, text: &str, grave| Incident {
         text: Text::clipped(text),
@@ -150,8 +147,7 @@ fn a_card_names_the_gravest_incident_of_the_attempt() {
 
 #[test]
 fn a_program_that_takes_no_orders_gets_no_more_than_it_can_hold() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let port = hub.student(card("Ada")).unwrap().unwrap();
     // It had orders of another hub before.
     port.publish(State {
@@ -176,8 +172,7 @@ fn a_program_that_takes_no_orders_gets_no_more_than_it_can_hold() {
 /// not wait once.
 #[test]
 fn one_stops_reading_and_no_frame_waits() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let port = hub.student(card("Ada")).unwrap().unwrap();
     port.publish(first_state());
     let mut dead = Client::new(&hub, &cookie(&hub));

@@ -9,8 +9,7 @@ use vitriol_tests::random::Random;
 
 #[test]
 fn a_code_is_good_once_and_wrong_ones_have_to_wait() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let to = hub.address();
     let code = hub.invite().unwrap().code;
     assert_eq!(enter(to, "00000-00000").status, 403);
@@ -49,8 +48,7 @@ fn a_code_is_good_once_and_wrong_ones_have_to_wait() {
 
 #[test]
 fn nothing_is_had_without_a_session_from_elsewhere_or_at_another_host() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let to = hub.address();
     let cookie = cookie(&hub);
     let port = to.port();
@@ -115,8 +113,7 @@ fn nothing_is_had_without_a_session_from_elsewhere_or_at_another_host() {
 
 #[test]
 fn browsers_are_told_to_be_careful() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     for path in ["/", "/session", "/nothing"] {
         let answer = ask(hub.address(), &format!("GET {path}"), &[], "");
         let policy = answer.field("content-security-policy").unwrap();
@@ -151,8 +148,7 @@ fn browsers_are_told_to_be_careful() {
 
 #[test]
 fn ten_thousand_frames_of_garbage() {
-    let folder = tempfile::tempdir().unwrap();
-    let hub = hub(folder.path());
+    let (_folder, hub) = hub();
     let student = FakeStudent::in_hub(&hub, "Ada");
     let cookie = cookie(&hub);
     let mut good = Client::new(&hub, &cookie);

@@ -11,6 +11,7 @@ use openh264::encoder::{
     ColorPrimaries, Encoder, EncoderConfig, MatrixCoefficients, TransferCharacteristics, VuiConfig,
 };
 use openh264::formats::{RgbaSliceU8, YUVBuffer};
+use tempfile::TempDir;
 use vitriol_console::{
     Choice, Codec, Command, Config, EncodedPicture, Flask, Hub, Incident, Kind, List, Points, Port,
     Range, Said, State, Step, Student, Text,
@@ -24,8 +25,11 @@ pub const CLOSE_COLOUR: [u8; 3] = [40, 90, 200];
 /// The size of its view.
 pub const SIZE: [u16; 2] = [320, 180];
 
-pub fn hub(folder: &std::path::Path) -> Hub {
-    hub_in("en", folder)
+/// A hub that speaks English, and its folder.
+pub fn hub() -> (TempDir, Hub) {
+    let folder = tempfile::tempdir().unwrap();
+    let hub = hub_in("en", folder.path());
+    (folder, hub)
 }
 
 pub fn hub_in(language: &'static str, folder: &std::path::Path) -> Hub {

@@ -125,35 +125,24 @@ mod tests {
 
     use super::*;
 
+    /// What was given, and the address that it is.
+    const ADDRESSES: &str = "
+https://lrs.example.org/xAPI/ https://lrs.example.org/xAPI
+HTTPS://LRS.example.org:8443 https://lrs.example.org:8443
+http://localhost:8100/xAPI http://localhost:8100/xAPI
+http://127.0.0.1 http://127.0.0.1
+http://127.9.9.9:1/a/b http://127.9.9.9:1/a/b
+http://[::1]:8100 http://[::1]:8100
+https://lrs.example.org/xAPI/statements https://lrs.example.org/xAPI
+https://lrs.example.org/xAPI//statements// https://lrs.example.org/xAPI
+http://localhost/statements http://localhost
+https://lrs.example.org/my-statements https://lrs.example.org/my-statements
+";
+
     #[test]
     fn encrypted_or_this_machine() {
-        for (text, address) in [
-            (
-                "https://lrs.example.org/xAPI/",
-                "https://lrs.example.org/xAPI",
-            ),
-            (
-                "HTTPS://LRS.example.org:8443",
-                "https://lrs.example.org:8443",
-            ),
-            ("http://localhost:8100/xAPI", "http://localhost:8100/xAPI"),
-            ("http://127.0.0.1", "http://127.0.0.1"),
-            ("http://127.9.9.9:1/a/b", "http://127.9.9.9:1/a/b"),
-            ("http://[::1]:8100", "http://[::1]:8100"),
-            (
-                "https://lrs.example.org/xAPI/statements",
-                "https://lrs.example.org/xAPI",
-            ),
-            (
-                "https://lrs.example.org/xAPI//statements//",
-                "https://lrs.example.org/xAPI",
-            ),
-            ("http://localhost/statements", "http://localhost"),
-            (
-                "https://lrs.example.org/my-statements",
-                "https://lrs.example.org/my-statements",
-            ),
-        ] {
+        for pair in ADDRESSES.trim().lines() {
+            let (text, address) = pair.split_once(' ').unwrap();
             let endpoint: Endpoint = text.parse().unwrap();
             assert_eq!(endpoint.as_str(), address);
             assert_eq!(endpoint.statements(), format!("{address}/statements"));

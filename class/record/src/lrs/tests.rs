@@ -25,7 +25,7 @@ impl Request {
     }
 }
 
-/// Answers each request in turn with the result of `answer`, until that is `None`; then it closes its port.
+/// Answers each request in turn with the result of `answer`, until that is `None` or [`end`] asks; then it closes its port.
 fn server(
     mut answer: impl FnMut(&Request) -> Option<String> + Send + 'static,
 ) -> (Lrs, JoinHandle<Vec<Request>>) {
@@ -56,7 +56,11 @@ fn server(
                 headers,
                 body,
             };
-            let Some(answer) = answer(&request) else {
+            let answer = match is_end(&request) {
+                true => None,
+                false => answer(&request),
+            };
+            let Some(answer) = answer else {
                 return requests;
             };
             requests.push(request);
@@ -133,10 +137,9 @@ fn is_end(request: &Request) -> bool {
 #[test]
 fn what_is_away_is_asked_again_with_the_same() {
     let mut asked = 0;
-    let (sent, requests, ids) = sending(move |request| {
+    let (sent, requests, ids) = sending(move |_| {
         asked += 1;
         match asked {
-            _ if is_end(request) => None,
             1 => here("503 Service Unavailable", "Retry-After: 99999\r\n"),
             // An answer without a message.
             2 => Some(String::new()),
@@ -177,13 +180,7 @@ fn who_takes_nothing_is_asked_once_and_all_stays() {
         ),
     ] {
         let status = answer.as_deref().unwrap()["HTTP/1.1 ".len()..][..3].to_owned();
-        let (sent, requests, _) = sending(move |request| {
-            if is_end(request) {
-                None
-            } else {
-                answer.clone()
-            }
-        });
+        let (sent, requests, _) = sending(move |_| answer.clone());
         assert_eq!(
             (sent.delivered, sent.waiting, requests.len()),
             (0, 9, 1),
@@ -204,9 +201,7 @@ fn who_takes_nothing_is_asked_once_and_all_stays() {
 #[test]
 fn one_that_is_refused_keeps_off_no_other() {
     let (sent, requests, ids) = sending(|request| {
-        if is_end(request) {
-            None
-        } else if request.body.contains("incident/hot") {
+        if request.body.contains("incident/hot") {
             says("400 Bad Request", "no heat")
         } else {
             here("204 No Content", "")
@@ -224,10 +219,7 @@ fn one_that_is_refused_keeps_off_no_other() {
 
 #[test]
 fn who_refuses_each_is_not_asked_for_ever() {
-    let (sent, requests, _) = sending(|request| match is_end(request) {
-        true => None,
-        false => says("413 Content Too Large", ""),
-    });
+    let (sent, requests, _) = sending(|_| says("413 Content Too Large", ""));
     assert_eq!(
         (sent.delivered, sent.waiting, sent.refused.len()),
         (0, 9, 9)
@@ -240,9 +232,6 @@ fn who_refuses_each_is_not_asked_for_ever() {
 fn a_conflict_is_looked_into() {
     let mut first = Vec::new();
     let (sent, requests, ids) = sending(move |request| {
-        if is_end(request) {
-            return None;
-        }
         if request.first.starts_with("POST") && first.is_empty() {
             first = serde_json::from_str::<Vec<serde_json::Value>>(&request.body).unwrap();
             return says("409 Conflict", "there");
@@ -276,9 +265,7 @@ fn a_conflict_is_looked_into() {
 fn one_that_conflicts_keeps_off_no_other() {
     for looked_up in ["403 Forbidden", "404 Not Found"] {
         let (sent, requests, ids) = sending(move |request| {
-            if is_end(request) {
-                None
-            } else if request.first.starts_with("GET") {
+            if request.first.starts_with("GET") {
                 says(looked_up, "")
             } else if request.body.contains("incident/hot") {
                 says("409 Conflict", "another is there")
@@ -302,10 +289,9 @@ fn one_that_conflicts_keeps_off_no_other() {
 fn a_later_call_sends_the_very_same_text() {
     let folder = tempfile::tempdir().unwrap();
     let mut asked = 0;
-    let (lrs, served) = server(move |request| {
+    let (lrs, served) = server(move |_| {
         asked += 1;
         match asked {
-            _ if is_end(request) => None,
             1..=3 => here("503 Service Unavailable", ""),
             _ => here("204 No Content", ""),
         }

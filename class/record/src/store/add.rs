@@ -99,7 +99,6 @@ fn insert(change: &Transaction<'_>, entry: &Entry, id: &str, begun: &str) -> rus
         let text = |name: &str| what.get(name).and_then(Value::as_str);
         let number = |name: &str| what.get(name).and_then(Value::as_f64);
         let yes = |name: &str| what.get(name).and_then(Value::as_bool);
-        let (cause, cause_flask) = xapi::cause(&incident.cause);
         change.execute(
             "INSERT INTO incidents VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
              ?19, ?20)",
@@ -110,8 +109,8 @@ fn insert(change: &Transaction<'_>, entry: &Entry, id: &str, begun: &str) -> rus
                 incident.t_s,
                 incident.until_s,
                 text("kind"),
-                cause,
-                cause_flask,
+                incident.cause.name(),
+                incident.cause.flask(),
                 text("flask"),
                 text("surface"),
                 text("skin"),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde_json::Value;
-use vitriol_lesson::{Cause, Incident, What};
+use vitriol_lesson::{Incident, What};
 
 use super::activity::Activity;
 use super::vocabulary::{EVENT, EXPERIENCED, INTERACTED, Key, Verb, ours};
@@ -22,51 +22,42 @@ pub(super) struct Kind {
 
 impl Kind {
     pub(super) fn of(what: &What) -> Self {
-        let kind = |name, verb, title, description| Self {
-            name,
+        let kind = |verb, title, description| Self {
+            name: what.kind(),
             verb,
             title,
             description,
         };
         match what {
             What::WaterIntoAcid { .. } => kind(
-                "water-into-acid",
                 INTERACTED,
                 "Water into acid",
                 "Liquid that is mostly water was poured into concentrated acid.",
             ),
             What::PouredTooFast { .. } => kind(
-                "poured-too-fast",
                 INTERACTED,
                 "Poured too fast",
                 "Acid and water came together faster than is safe.",
             ),
             What::BoiledOver { .. } => kind(
-                "boiled-over",
                 EXPERIENCED,
                 "Boiled over",
                 "Liquid left an upright flask over its rim while it boiled.",
             ),
             What::Hot { .. } => kind(
-                "hot",
                 EXPERIENCED,
                 "Hot",
                 "Liquid became so hot that it burns skin.",
             ),
-            What::Spilt { .. } => kind(
-                "spilt",
-                INTERACTED,
-                "Spilt",
-                "Liquid came to lie beside the flasks.",
-            ),
+            What::Spilt { .. } => {
+                kind(INTERACTED, "Spilt", "Liquid came to lie beside the flasks.")
+            }
             What::OnSkin { .. } => kind(
-                "on-skin",
                 EXPERIENCED,
                 "On skin",
                 "Acid, or hot liquid, came to the user.",
             ),
             What::Dropped { .. } => kind(
-                "dropped",
                 INTERACTED,
                 "Dropped",
                 "A flask that nobody held struck bench or floor hard.",
@@ -115,25 +106,9 @@ pub(super) fn extensions(incident: &Incident) -> Extensions {
         add("place_m", incident.place_m.as_slice().into());
     }
     add("film_s", incident.t_s.into());
-    let (cause, flask) = cause(&incident.cause);
-    add("cause", cause.into());
-    add("cause_flask", flask.into());
+    add("cause", incident.cause.name().into());
+    add("cause_flask", incident.cause.flask().into());
     found
-}
-
-/// A cause's name, as in a recording's `/events`, and its flask.
-pub(crate) fn cause(cause: &Cause) -> (&'static str, Option<&str>) {
-    match cause {
-        Cause::Pouring { from } => ("pouring", Some(from)),
-        Cause::Boiling { flask } => ("boiling", Some(flask)),
-        Cause::Breaking { flask } => ("breaking", Some(flask)),
-        Cause::LettingGo { flask } => ("letting-go", Some(flask)),
-        Cause::Splashing { flask } => ("splashing", Some(flask)),
-        Cause::Mixing { flask } => ("mixing", Some(flask)),
-        Cause::Swirling { flask } => ("swirling", Some(flask)),
-        Cause::Heating { flask } => ("heating", Some(flask)),
-        Cause::Unknown => ("unknown", None),
-    }
 }
 
 #[cfg(test)]
@@ -159,12 +134,12 @@ mod tests {
                 assert_eq!(said.get(&key.iri()), Some(value).filter(|v| !v.is_null()));
             }
             let told = serde_json::to_value(&incident.cause).unwrap();
-            assert_eq!(told["cause"], cause(&incident.cause).0);
+            assert_eq!(told["cause"], incident.cause.name());
             let flask = told
                 .get("flask")
                 .or(told.get("from"))
                 .and_then(Value::as_str);
-            assert_eq!(flask, cause(&incident.cause).1);
+            assert_eq!(flask, incident.cause.flask());
         }
     }
 

@@ -1,70 +1,39 @@
 //! An attempt with one incident of each kind and each cause.
+#![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
 
-use vitriol_lesson::{
-    Attempt, Cause, Content, Ending, Hottest, Incident, Pour, Skin, Surface, What,
-};
+use vitriol_lesson::{Attempt, Content, Ending, Hottest, Incident, Pour};
+
+/// What went wrong, as in a recording.
+const WHATS: &str = r#"
+{"kind":"water-into-acid","flask":"beaker","met_acid":0.96,"volume_m3":2.5e-5}
+{"kind":"poured-too-fast","flask":"beaker","rate_m3_s":4e-5,"limit_m3_s":1e-5}
+{"kind":"boiled-over","flask":"beaker","volume_m3":3e-6,"acid":0.61}
+{"kind":"hot","flask":"beaker","temperature_c":131.0}
+{"kind":"spilt","surface":"bench","volume_m3":1e-6,"acid":0.3}
+{"kind":"on-skin","skin":"left-hand","volume_m3":5e-8,"acid":0.61,"temperature_c":null,"protected":true}
+{"kind":"dropped","flask":"flask","speed_m_s":2.25,"broke":true}
+"#;
+
+/// The cause of each.
+const CAUSES: &str = r#"
+{"cause":"pouring","from":"flask"}
+{"cause":"mixing","flask":"beaker"}
+{"cause":"boiling","flask":"beaker"}
+{"cause":"unknown"}
+{"cause":"splashing","flask":"beaker"}
+{"cause":"breaking","flask":"flask"}
+{"cause":"letting-go","flask":"flask"}
+"#;
 
 /// Incidents of each kind, and of each cause.
 pub fn incidents() -> Vec<Incident> {
-    let [beaker, flask] = ["beaker", "flask"].map(String::from);
-    let whats = [
-        What::WaterIntoAcid {
-            flask: beaker.clone(),
-            met_acid: 0.96,
-            volume_m3: 2.5e-5,
-        },
-        What::PouredTooFast {
-            flask: beaker.clone(),
-            rate_m3_s: 4e-5,
-            limit_m3_s: 1e-5,
-        },
-        What::BoiledOver {
-            flask: beaker.clone(),
-            volume_m3: 3e-6,
-            acid: 0.61,
-        },
-        What::Hot {
-            flask: beaker.clone(),
-            temperature_c: 131.0,
-        },
-        What::Spilt {
-            surface: Surface::Bench,
-            volume_m3: 1e-6,
-            acid: 0.3,
-        },
-        What::OnSkin {
-            skin: Skin::LeftHand,
-            volume_m3: 5e-8,
-            acid: 0.61,
-            temperature_c: None,
-            protected: true,
-        },
-        What::Dropped {
-            flask: flask.clone(),
-            speed_m_s: 2.25,
-            broke: true,
-        },
-    ];
-    let causes = [
-        Cause::Pouring {
-            from: flask.clone(),
-        },
-        Cause::Mixing {
-            flask: beaker.clone(),
-        },
-        Cause::Boiling {
-            flask: beaker.clone(),
-        },
-        Cause::Unknown,
-        Cause::Splashing { flask: beaker },
-        Cause::Breaking {
-            flask: flask.clone(),
-        },
-        Cause::LettingGo { flask },
-    ];
-    let both = whats.into_iter().zip(causes).enumerate();
+    let whats = WHATS.trim().lines();
+    let whats = whats.map(|it| serde_json::from_str(it).unwrap());
+    let causes = CAUSES.trim().lines();
+    let causes = causes.map(|it| serde_json::from_str(it).unwrap());
+    let both = whats.zip(causes).enumerate();
     both.map(|(i, (what, cause))| Incident {
         t_s: 3.0 + i as f64,
         until_s: 3.125 + 1.5 * i as f64,

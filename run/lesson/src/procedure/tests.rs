@@ -16,7 +16,7 @@ mod retold;
 mod spoiled;
 
 use super::*;
-use crate::event::{Cause, Content, Ending, Event, Incident, Pour, Skin, Surface, What};
+use crate::event::{Cause, Content, Ending, Event, Incident, Pour, Surface, What};
 
 /// Time between observations here, s.
 const STEP: f64 = 0.1;
@@ -43,6 +43,36 @@ fn text(steps: &[(&str, &str)], rules: &[(&str, &str)]) -> String {
         text += &format!("rule.{id} = \"Keep {id}.\"\n");
     }
     text
+}
+
+/// A case of a table: what is replaced in a good lesson => by what => what is told then. `⏎` is a line's end.
+fn case(line: &str) -> [String; 3] {
+    let parts = line.split(" => ").map(|it| it.replace('⏎', "\n"));
+    parts.collect::<Vec<_>>().try_into().unwrap()
+}
+
+/// Checks that a lesson is refused that is good but for one case of a table, a line each: the message has each part that ` | ` divides.
+fn assert_each_is_refused(good: &str, table: &str) {
+    for line in table.trim().lines() {
+        let [from, to, parts] = case(line);
+        assert!(good.contains(&from), "{from} is not in the good lesson");
+        let spoiled = Lesson::parse(&good.replacen(&from, &to, 1), "bad.toml");
+        let error = spoiled.map(|_| line).unwrap_err().to_string();
+        assert!(error.starts_with("bad.toml: "), "{error}");
+        for part in parts.split(" | ") {
+            assert!(error.contains(part), "{line}: {part} is not in\n{error}");
+        }
+    }
+}
+
+/// The beginning of the bench's scene at that time, s.
+fn begun(t_s: f64) -> Event {
+    Event::Begun {
+        t_s,
+        scene: "bench".to_owned(),
+        contents: Default::default(),
+        glass: Default::default(),
+    }
 }
 
 /// A bench with all bodies: acid in `a`, water in `b`, both stand.
@@ -83,13 +113,7 @@ impl Run {
             t: 10.0,
             said: Vec::new(),
         };
-        let begun = Event::Begun {
-            t_s: 10.0,
-            scene: "bench".to_owned(),
-            contents: Default::default(),
-            glass: Default::default(),
-        };
-        run.said = run.procedure.advance(&sight(10.0), &[begun]);
+        run.said = run.procedure.advance(&sight(10.0), &[begun(10.0)]);
         run
     }
 

@@ -62,45 +62,30 @@ fn the_wrong_order_is_told_with_its_causes() {
         ]
     );
     let bad = said.iter().filter(|it| it.tone == Tone::Bad);
+    // Each with its cause, danger and remedy.
     let bad: Vec<_> = bad
-        .map(|it| (it.text.as_str(), it.more.as_deref().unwrap_or("")))
+        .flat_map(|it| [it.text.as_str(), it.more.as_deref().unwrap_or("")])
         .collect();
     assert_eq!(
         bad,
         [
-            (
-                "Water was poured into 96 % acid, the wrong order: 25 mL in 3.1 s, at most 12 mL/s, into the beaker with 98 % acid.",
-                "Water floats on the acid, boils at once where they meet, and throws acid out.",
-            ),
-            (
-                "Acid and water came together too fast in the beaker with 98 % acid: 12 mL/s, where 5.0 mL/s is safe.",
-                "The heat comes faster than the liquid can spread it.",
-            ),
-            (
-                "Liquid in the beaker with 98 % acid reached 134 °C.",
-                "Acid and water gave off heat as they mixed in the beaker with 98 % acid. \
-                 Liquid this hot burns skin at once, and a thin glove does not help.",
-            ),
-            (
-                "The beaker with 98 % acid boiled over and threw out: 3.4 mL of 71 % acid.",
-                "Acid this concentrated burns skin and can blind: 15 % is enough.",
-            ),
-            (
-                "On the skin of the right hand: 0.21 mL of 68 % acid.",
-                "The liquid in the beaker with 98 % acid was boiling. Rinse at once, with plenty of water.",
-            ),
-            (
-                "On the goggles: 0.047 mL of 68 % acid.",
-                "The liquid in the beaker with 98 % acid was boiling. What was worn there kept it off the skin: rinse it, take it off, and rinse the skin.",
-            ),
-            (
-                "Spilt on the bench: 2.6 mL of 71 % acid.",
-                "The liquid in the beaker with 98 % acid was boiling. Wipe it up before someone touches it.",
-            ),
-            (
-                "The beaker with water hit something at 3.8 m/s and broke.",
-                ""
-            ),
+            "Water was poured into 96 % acid, the wrong order: 25 mL in 3.1 s, at most 12 mL/s, into the beaker with 98 % acid.",
+            "Water floats on the acid, boils at once where they meet, and throws acid out.",
+            "Acid and water came together too fast in the beaker with 98 % acid: 12 mL/s, where 5.0 mL/s is safe.",
+            "The heat comes faster than the liquid can spread it.",
+            "Liquid in the beaker with 98 % acid reached 134 °C.",
+            "Acid and water gave off heat as they mixed in the beaker with 98 % acid. \
+             Liquid this hot burns skin at once, and a thin glove does not help.",
+            "The beaker with 98 % acid boiled over and threw out: 3.4 mL of 71 % acid.",
+            "Acid this concentrated burns skin and can blind: 15 % is enough.",
+            "On the skin of the right hand: 0.21 mL of 68 % acid.",
+            "The liquid in the beaker with 98 % acid was boiling. Rinse at once, with plenty of water.",
+            "On the goggles: 0.047 mL of 68 % acid.",
+            "The liquid in the beaker with 98 % acid was boiling. What was worn there kept it off the skin: rinse it, take it off, and rinse the skin.",
+            "Spilt on the bench: 2.6 mL of 71 % acid.",
+            "The liquid in the beaker with 98 % acid was boiling. Wipe it up before someone touches it.",
+            "The beaker with water hit something at 3.8 m/s and broke.",
+            "",
         ]
     );
     // Each danger is named once: at the first incident that has it. In the order of the film, and the pour is not described twice.

@@ -4,12 +4,9 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
-use vitriol_lesson::{Attempt, Cause, Event, incidents_csv};
+use vitriol_lesson::{Cause, incidents_csv};
 
-fn attempts() -> Vec<Attempt> {
-    let events: Vec<Event> = serde_json::from_str(include_str!("../events.json")).unwrap();
-    Attempt::all(events)
-}
+use crate::said::attempts;
 
 /// The rows by column, as Python's `csv` reads them; `None` where there is no Python.
 fn read(csv: &[u8]) -> Option<Vec<Value>> {

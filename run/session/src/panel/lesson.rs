@@ -48,18 +48,23 @@ pub fn label(key: char, text: &str) -> String {
 }
 
 fn step(ui: &mut Ui, mark: Mark, text: &str) {
-    // By its shape as well as by its colour.
     let (sign, colour, of_text): (_, Color32, Color32) = match mark {
         Mark::Done => ("✔", GOOD, FAINT),
         Mark::Missed => ("✖", WARNING, FAINT),
         Mark::Open => ("▶", WHITE, WHITE),
         Mark::Waiting => ("•", FAINT, FAINT),
     };
+    marked(ui, (sign, colour), (text, of_text));
+}
+
+/// A text behind a sign, each in its colour: the sign tells by its shape as well.
+pub fn marked(ui: &mut Ui, sign: (&str, Color32), text: (&str, Color32)) {
+    let coloured = |(text, colour): (&str, Color32)| Label::new(RichText::new(text).color(colour));
     let size = vec2(34.0, TEXT);
-    let sign = Label::new(RichText::new(sign).color(colour));
-    ui.allocate_ui_with_layout(size, Layout::top_down(Align::Center), |ui| ui.add(sign));
+    let centred = Layout::top_down(Align::Center);
+    ui.allocate_ui_with_layout(size, centred, |ui| ui.add(coloured(sign)));
     let rest = vec2(ui.available_width(), TEXT);
-    let text = Label::new(RichText::new(text).color(of_text)).wrap();
+    let text = coloured(text).wrap();
     ui.allocate_ui_with_layout(rest, Layout::top_down(Align::Min), |ui| ui.add(text));
 }
 

@@ -3,8 +3,8 @@
 use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::{
     Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontData, FontFamily,
-    FontId, Frame, Label, Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke,
-    TextStyle, TopBottomPanel, Ui, Vec2, pos2, vec2,
+    FontId, Frame, Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle,
+    TopBottomPanel, Ui, Vec2, pos2, vec2,
 };
 use std::f32::consts::TAU;
 use vitriol_lesson::Tone;
@@ -180,20 +180,12 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     });
     ui.add_space(6.0);
     for (tone, text) in &happened.said {
-        ui.horizontal_top(|ui| {
-            // By its shape as well as by its colour.
-            let (mark, colour) = match tone {
-                Tone::Good => ("✔", GOOD),
-                Tone::Bad => ("⚠", WARNING),
-                Tone::Plain => ("•", FAINT),
-            };
-            let size = vec2(34.0, TEXT);
-            let mark = Label::new(RichText::new(mark).color(colour));
-            ui.allocate_ui_with_layout(size, Layout::top_down(Align::Center), |ui| ui.add(mark));
-            let rest = vec2(ui.available_width(), TEXT);
-            let text = Label::new(RichText::new(text).color(WHITE)).wrap();
-            ui.allocate_ui_with_layout(rest, Layout::top_down(Align::Min), |ui| ui.add(text));
-        });
+        let sign = match tone {
+            Tone::Good => ("✔", GOOD),
+            Tone::Bad => ("⚠", WARNING),
+            Tone::Plain => ("•", FAINT),
+        };
+        ui.horizontal_top(|ui| lesson::marked(ui, sign, (text, WHITE)));
     }
     lines(ui, [happened.more.clone()], FAINT);
     ui.add_space(8.0);

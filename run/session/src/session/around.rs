@@ -117,11 +117,12 @@ pub(super) fn draw(
     tools: &mut Vec<Bone>,
 ) {
     let scene_from_stage = placed.inverse();
-    let bone = |line: &Line| Bone {
-        ends: [line.from, line.to].map(|end| scene_from_stage.transform_point(end)),
-        radii: [line.radius; 2],
-        finish: Finish::Ray,
-        stain: 0.0,
+    let bone = |line: &Line| {
+        Bone::new(
+            Finish::Ray,
+            [line.from, line.to].map(|end| scene_from_stage.transform_point(end)),
+            [line.radius; 2],
+        )
     };
     let mut bones = lines.iter().map(bone);
     for group in [left, right, tools] {

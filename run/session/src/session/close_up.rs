@@ -20,7 +20,8 @@ impl Session {
         let fits = (self.pacing).has_room_for(self.counts.tally.close_up_ms, period);
         let lowered = self.pacing.effort(&self.benches.current).is_some();
         let yields = lowered || !fits;
-        let due = (self.instructor).close_up_is_due(time, self.counts.skipped, yields);
+        let (pages, missed) = (self.instructor.view.as_mut(), self.counts.skipped);
+        let due = pages.and_then(|it| it.close_up_is_due(time, missed, yields));
         let Some(elapsed) = due else {
             return Ok(());
         };
@@ -49,6 +50,9 @@ impl Session {
         let drawn = picture.draw_again(world, &sight)?;
         self.counts.tally.close_up(drawn);
         self.pacing.drew_close_up();
-        self.instructor.take_close_up(picture.image(), extent)
+        match &mut self.instructor.view {
+            Some(pages) => pages.take_close_up(picture.image(), extent),
+            None => Ok(()),
+        }
     }
 }

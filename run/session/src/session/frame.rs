@@ -419,7 +419,9 @@ impl Session {
         if let Some(mirror) = &mut self.mirror {
             mirror.hand_over()?;
         }
-        self.instructor.hand_over()?;
+        if let Some(view) = &mut self.instructor.view {
+            view.hand_over()?;
+        }
         self.observe(false)?;
         self.hear();
         self.checkpoints.collect(&mut self.run.world)?;

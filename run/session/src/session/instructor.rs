@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use vitriol_console::{
     Coming, Command, Controls, Frames, List, Points, Said, State, Step, Student, Text,
 };
-use vitriol_gpu::{Gpu, Image};
+use vitriol_gpu::Gpu;
 use vitriol_lesson::{Event, Language, Rubric, Texts};
 use vitriol_run::{Action, Blame, CloseUp, Failure};
 use vitriol_shaders::Library;
@@ -68,7 +68,8 @@ pub(super) struct Now<'a> {
 /// state.
 pub(super) struct Instructor {
     console: Option<Console>,
-    view: Option<View>,
+    /// The pictures that pages show; `None` without a console.
+    pub view: Option<View>,
     /// From where the glass is seen closely.
     pub close_up: CloseUp,
     texts: Texts,
@@ -280,53 +281,6 @@ impl Instructor {
             period_s: now.period,
             missed: now.missed,
         }
-    }
-
-    /// Goes on with another device.
-    ///
-    /// # Errors
-    /// An error of the device.
-    pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
-        match &mut self.view {
-            Some(view) => view.move_to(gpu, library, eye),
-            None => Ok(()),
-        }
-    }
-
-    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), where somebody looks.
-    ///
-    /// # Errors
-    /// An error of the device.
-    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
-        match &mut self.view {
-            Some(view) => view.take(picture, drawn, time),
-            None => Ok(()),
-        }
-    }
-
-    /// See [`View::close_up_is_due`].
-    pub fn close_up_is_due(&mut self, time: i64, missed: u64, yields: bool) -> Option<f64> {
-        let view = self.view.as_mut()?;
-        view.close_up_is_due(time, missed, yields)
-    }
-
-    /// Takes the first `drawn` pixels of a picture from close by, where there is a console.
-    ///
-    /// # Errors
-    /// An error of the device.
-    pub fn take_close_up(&mut self, picture: &Image, drawn: [u32; 2]) -> Result<(), Failure> {
-        match &mut self.view {
-            Some(view) => view.take_close_up(picture, drawn),
-            None => Ok(()),
-        }
-    }
-
-    /// Hands over the pictures that the device is done with.
-    ///
-    /// # Errors
-    /// An error of the device.
-    pub fn hand_over(&mut self) -> Result<(), Failure> {
-        self.view.as_mut().map_or(Ok(()), View::hand_over)
     }
 }
 

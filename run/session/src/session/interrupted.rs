@@ -65,7 +65,9 @@ impl Session {
         if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;
         }
-        self.instructor.move_to(gpu, library, eyes.extent)?;
+        if let Some(view) = &mut self.instructor.view {
+            view.move_to(gpu, library, eyes.extent)?;
+        }
         // What was under way on the old device will not come, and its times do not apply to the new one.
         self.pacing.forget();
         self.pacing.forget_rates();

@@ -187,12 +187,11 @@ mod tests {
     use vitriol_sim::solver::{Came, Touching};
 
     fn finger(x: f32) -> Bone {
-        Bone {
-            ends: [Vec3::new(x, 1.0, 0.0), Vec3::new(x, 1.0, 0.03)],
-            radii: [0.008, 0.007],
-            finish: Finish::Glove,
-            stain: 0.0,
-        }
+        Bone::new(
+            Finish::Glove,
+            [Vec3::new(x, 1.0, 0.0), Vec3::new(x, 1.0, 0.03)],
+            [0.008, 0.007],
+        )
     }
 
     /// A scene twenty times as large as real, in which 0.06 real mL of 50 % come to the right hand, next to its second finger.

@@ -134,15 +134,13 @@ mod tests {
             ..Hand::default()
         };
         PoseFrame {
-            step: 0,
-            time_ns: 0,
             stage_from_view: Pose::new(Vec3::new(0.3, 1.2, 0.1), Quat::IDENTITY),
             hands,
-            scenario: Vec::new(),
             info: FrameInfo {
                 xr_time: EPOCH + (1e9 * seconds).round() as i64,
                 ..FrameInfo::default()
             },
+            ..PoseFrame::default()
         }
     }
 

@@ -159,7 +159,9 @@ impl Session {
     /// Shows the instructor what the left eye sees, and behind it the glass from close by.
     pub(super) fn show_instructor(&mut self, shown: &Shown, time: i64) -> Result<(), Failure> {
         let picture = self.benches.current.picture.image();
-        self.instructor.take(picture, shown.extent, time)?;
+        if let Some(view) = &mut self.instructor.view {
+            view.take(picture, shown.extent, time)?;
+        }
         self.show_close_up(time)
     }
 }

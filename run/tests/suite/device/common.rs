@@ -7,7 +7,7 @@ use vitriol_gpu::Gpu;
 use vitriol_run::{Colour, Experiment, Setup, on_device};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{PictureRoom, Preset, Scene};
-use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame};
+use vitriol_xr::{Pose, PoseFrame};
 
 /// Width and height of the pictures.
 pub const SIZE: (u32, u32) = (320, 180);
@@ -81,9 +81,7 @@ pub fn frame(step: u64, stage_from_view: Pose) -> PoseFrame {
         step,
         time_ns: step as i64 * 11_111_111,
         stage_from_view,
-        hands: [Hand::default(), Hand::default()],
-        scenario: Vec::new(),
-        info: FrameInfo::default(),
+        ..PoseFrame::default()
     }
 }
 

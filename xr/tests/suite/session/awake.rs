@@ -1,9 +1,9 @@
 //! Headsets that sleep, that nobody wears, that show something else, and runtimes that are of no use.
 
-use vitriol_tests::mock::{self, Change, Goal, HandState, Mock};
+use vitriol_tests::mock::{Change, Goal, HandState, Mock};
 use vitriol_xr::{Headset, HeadsetError, OpenXr, Pause, Side, Turn};
 
-use crate::session::client::{Client, focused, on_mock, options};
+use crate::session::client::{Client, enter, focused, on_mock, options};
 
 /// The next pause, after frames that are drawn; `None` if there is none in a while.
 fn pause(client: &mut Client) -> Option<Pause> {
@@ -21,8 +21,7 @@ fn pause(client: &mut Client) -> Option<Pause> {
 
 #[test]
 fn a_headset_that_is_off_is_waited_for() {
-    let name = "session::awake::a_headset_that_is_off_is_waited_for";
-    let Some(mock) = mock::enter(name, &[Change::Headset(false)]) else {
+    let Some(mock) = enter(&[Change::Headset(false)]) else {
         return;
     };
     // It waits as long as `waits` is true.
@@ -48,8 +47,7 @@ fn a_headset_that_is_off_is_waited_for() {
 
 #[test]
 fn a_headset_that_sleeps_is_waited_for() {
-    let name = "session::awake::a_headset_that_sleeps_is_waited_for";
-    let Some(mock) = mock::enter(name, &[Change::Goal(Goal::Idle)]) else {
+    let Some(mock) = enter(&[Change::Goal(Goal::Idle)]) else {
         return;
     };
     let mut client = Client::open();
@@ -63,7 +61,7 @@ fn a_headset_that_sleeps_is_waited_for() {
 
 #[test]
 fn nobody_wears_it() {
-    let Some((mock, mut client)) = on_mock("session::awake::nobody_wears_it", &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     assert_eq!(pause(&mut client), None);
@@ -82,8 +80,7 @@ fn something_else_has_the_focus() {
         squeeze: 1.0,
         ..HandState::touch(1)
     };
-    let name = "session::awake::something_else_has_the_focus";
-    let Some((mock, mut client)) = on_mock(name, &[Change::hand(1, gripping.clone())]) else {
+    let Some((mock, mut client)) = on_mock(&[Change::hand(1, gripping.clone())]) else {
         return;
     };
     mock.say(Change::Goal(Goal::Visible));
@@ -110,9 +107,8 @@ fn something_else_has_the_focus() {
 
 #[test]
 fn a_runtime_without_vulkan_is_not_the_one() {
-    let name = "session::awake::a_runtime_without_vulkan_is_not_the_one";
     let extensions = Change::Extensions(vec!["XR_KHR_D3D11_enable".to_owned()]);
-    let Some(_mock) = mock::enter(name, &[extensions]) else {
+    let Some(_mock) = enter(&[extensions]) else {
         return;
     };
     let error = OpenXr::open(options(), |_| true).err().unwrap();
@@ -139,7 +135,7 @@ fn hidden(mock: &Mock, client: &mut Client, corner: f32) -> Vec<[f32; 2]> {
 
 #[test]
 fn a_mask_may_change() {
-    let Some((mock, mut client)) = on_mock("session::awake::a_mask_may_change", &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     for corner in [-0.5, -0.25] {
@@ -162,8 +158,7 @@ fn the_displays_rate_can_be_chosen() {
         rates: vec![72.0, 80.0, 90.0, 120.0],
         now,
     };
-    let name = "session::awake::the_displays_rate_can_be_chosen";
-    let Some(mock) = mock::enter(name, &[rates(72.0)]) else {
+    let Some(mock) = enter(&[rates(72.0)]) else {
         return;
     };
     let asked = || {

@@ -5,6 +5,7 @@ use std::time::Instant;
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, Options, QueueKind, vk};
 use vitriol_tests::mock::{self, Change, Mock};
+use vitriol_tests::program::own_name;
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::{
     Headset, HeadsetFrame, Inset, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn,
@@ -35,9 +36,14 @@ pub fn options() -> OpenXrOptions {
     }
 }
 
-/// A client that has the focus, on a mock runtime that begins with `changes`, in the test of that name.
-pub fn on_mock(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
-    let mock = mock::enter(name, changes)?;
+/// Runs this test with a mock runtime that begins with `changes`, as [`mock::enter`] does.
+pub fn enter(changes: &[Change]) -> Option<Mock> {
+    mock::enter(&own_name(), changes)
+}
+
+/// A client that has the focus, on a mock runtime that begins with `changes`.
+pub fn on_mock(changes: &[Change]) -> Option<(Mock, Client)> {
+    let mock = enter(changes)?;
     let mut client = Client::open();
     client.focus();
     Some((mock, client))

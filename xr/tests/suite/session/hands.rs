@@ -3,6 +3,7 @@
 use glam::{Quat, Vec3};
 use vitriol_tests::gpu::read_back;
 use vitriol_tests::monado::{self, Controller};
+use vitriol_tests::program::own_name;
 use vitriol_xr::{Headset, HeadsetFrame, Pose, Side};
 
 use crate::session::client::{Client, focused};
@@ -54,7 +55,7 @@ fn shows(frame: &HeadsetFrame, head: Vec3, n: u32) {
 
 #[test]
 fn what_is_driven_arrives() {
-    let Some(rig) = monado::enter("session::hands::what_is_driven_arrives") else {
+    let Some(rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut remote = rig.remote();
@@ -102,7 +103,7 @@ fn what_is_driven_arrives() {
 
 #[test]
 fn a_hand_that_sleeps_stays_where_it_was() {
-    let Some(rig) = monado::enter("session::hands::a_hand_that_sleeps_stays_where_it_was") else {
+    let Some(rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut remote = rig.remote();

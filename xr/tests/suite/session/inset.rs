@@ -5,7 +5,7 @@ use vitriol_tests::gpu::read_back;
 use vitriol_tests::mock::{self, Change, Inset, Layer, Mock, ProjectionView};
 use vitriol_xr::{Fov, Headset, HeadsetError, Shown};
 
-use crate::session::client::{Client, EYES, INSET, hurried, on_mock};
+use crate::session::client::{Client, EYES, INSET, enter, hurried, on_mock};
 
 pub const QUAD: &str = "XR_VARJO_quad_views";
 pub const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
@@ -17,9 +17,10 @@ pub const OF_QUAD: i32 = 1_000_037_000;
 /// Size of the eyes' pictures where nothing is foveated.
 const STEREO: [u32; 2] = [64, 48];
 
-/// A client that asks for the inset and has the focus, on a runtime that begins with `changes`.
-pub fn opened(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
-    let mock = mock::enter(name, changes)?;
+/// A client that asks for the inset and has the focus, on a runtime that offers both extensions and then begins with `changes`.
+pub fn opened(changes: &[Change]) -> Option<(Mock, Client)> {
+    let both = Change::offer_all_too(&[QUAD, FOLLOWS]);
+    let mock = enter(&[&[both][..], changes].concat())?;
     let mut client = Client::open_with(true);
     client.focus();
     Some((mock, client))
@@ -91,8 +92,7 @@ pub fn assert_near(found: [f32; 4], wanted: [f32; 4]) {
 /// Both pairs are in one layer, each with its views, its part of its own images, and its depth.
 #[test]
 fn both_pairs_are_shown() {
-    let name = "session::inset::both_pairs_are_shown";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     assert_eq!(begun(&mock), [(OF_QUAD, 0)]);
@@ -170,10 +170,10 @@ fn both_pairs_are_shown() {
 
 /// Without the second extension, and in a headset that cannot follow, the inset is where the runtime puts it, and of the size that the
 /// runtime gives for that.
-fn stays(name: &str, changes: &[Change]) {
+fn stays(changes: &[Change]) {
     let looks = mock::Pose::new(Vec3::new(0.0, 1.6, 0.0), Quat::from_rotation_y(0.25));
     let changes = [changes, &[Change::Gaze(Some(looks))]].concat();
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let Some((mock, mut client)) = opened(&changes) else {
         return;
     };
     assert_eq!(begun(&mock), [(OF_QUAD, 0)]);
@@ -191,8 +191,7 @@ fn stays(name: &str, changes: &[Change]) {
 
 #[test]
 fn it_stays_without_foveated_rendering() {
-    let name = "session::inset::it_stays_without_foveated_rendering";
-    stays(name, &[Change::offer_too(QUAD)]);
+    stays(&[Change::offer_too(QUAD)]);
 }
 
 #[test]
@@ -201,21 +200,13 @@ fn it_stays_in_a_headset_without_eye_tracking() {
         follows: false,
         ..Inset::default()
     };
-    let name = "session::inset::it_stays_in_a_headset_without_eye_tracking";
-    stays(
-        name,
-        &[
-            Change::offer_all_too(&[QUAD, FOLLOWS]),
-            Change::Inset(cannot),
-        ],
-    );
+    stays(&[Change::Inset(cannot)]);
 }
 
 #[test]
 fn none_is_had_where_none_is_offered() {
     // The one extension is of no use without the other.
-    let name = "session::inset::none_is_had_where_none_is_offered";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_too(FOLLOWS)]) else {
+    let Some((mock, mut client)) = opened(&[Change::offer_too(FOLLOWS)]) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -232,8 +223,7 @@ fn extensions(mock: &Mock) -> usize {
 
 #[test]
 fn none_is_had_where_none_is_asked_for() {
-    let name = "session::inset::none_is_had_where_none_is_asked_for";
-    let Some((mock, mut client)) = on_mock(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = on_mock(&[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -244,12 +234,7 @@ fn none_is_had_where_none_is_asked_for() {
 /// Images without layers: eight swapchains beside the panel's.
 #[test]
 fn images_with_one_layer() {
-    let name = "session::inset::images_with_one_layer";
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        Change::ArrayLayers(1),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let Some((mock, mut client)) = opened(&[Change::ArrayLayers(1)]) else {
         return;
     };
     client.drawn();
@@ -266,12 +251,8 @@ fn images_with_one_layer() {
 }
 
 /// Neither three views nor pictures without pixels are an inset.
-fn is_none(name: &str, inset: Inset) {
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        Change::Inset(inset),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+fn is_none(inset: Inset) {
+    let Some((mock, mut client)) = opened(&[Change::Inset(inset)]) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -284,7 +265,7 @@ fn three_views_are_none() {
         views: 3,
         ..Inset::default()
     };
-    is_none("session::inset::three_views_are_none", three);
+    is_none(three);
 }
 
 #[test]
@@ -293,7 +274,7 @@ fn five_views_are_none() {
         views: 5,
         ..Inset::default()
     };
-    is_none("session::inset::five_views_are_none", five);
+    is_none(five);
 }
 
 #[test]
@@ -302,14 +283,13 @@ fn pictures_without_pixels_are_none() {
         following: [[32, 28], [0, 20]],
         ..Inset::default()
     };
-    is_none("session::inset::pictures_without_pixels_are_none", empty);
+    is_none(empty);
 }
 
 /// A session whose runtime gives three views in the middle of it ends, and a new one begins without an inset.
 #[test]
 fn three_views_in_the_middle() {
-    let name = "session::inset::three_views_in_the_middle";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     mock.say(Change::Inset(Inset {
@@ -326,15 +306,13 @@ fn three_views_in_the_middle() {
 /// An invalid field of view is not used: at first the inset is all of each eye's picture, later it keeps its last field of view.
 #[test]
 fn an_empty_field_of_view() {
-    let name = "session::inset::an_empty_field_of_view";
     let sees = |half| {
         Change::Inset(Inset {
             half,
             ..Inset::default()
         })
     };
-    let changes = [Change::offer_all_too(&[QUAD, FOLLOWS]), sees(0.0)];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let Some((mock, mut client)) = opened(&[sees(0.0)]) else {
         return;
     };
     let frame = |client: &mut Client| {
@@ -359,8 +337,7 @@ fn an_empty_field_of_view() {
 /// A program that has no picture for the inset shows nothing and gets an error. The runtime is not blamed, and the session stays.
 #[test]
 fn a_frame_without_it_is_ended_without_a_picture() {
-    let name = "session::inset::a_frame_without_it_is_ended_without_a_picture";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     // More such frames than a session allows refused ones in a row.

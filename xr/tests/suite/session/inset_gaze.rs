@@ -4,13 +4,12 @@ use glam::{Quat, Vec3};
 use vitriol_tests::mock::{self, Change, Inset, Mock, SpaceKind};
 use vitriol_xr::Headset;
 
-use crate::session::inset::{FOLLOWS, QUAD, about, angles, assert_near, opened, shown};
+use crate::session::inset::{about, angles, assert_near, opened, shown};
 
 /// Where the runtime supports it, the inset is where the user looks, in the frame for which that is known, and is shown as it was drawn.
 #[test]
 fn it_follows_the_gaze() {
-    let name = "session::inset_gaze::it_follows_the_gaze";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     let half = Inset::default().half;
@@ -52,8 +51,7 @@ fn asked(mock: &Mock, before: usize) -> Vec<bool> {
 /// The runtime is asked for an inset that follows only while it has the gaze. Without it, the inset stands ahead; its pictures stay.
 #[test]
 fn a_gaze_that_is_lost_and_found() {
-    let name = "session::inset_gaze::a_gaze_that_is_lost_and_found";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     let half = Inset::default().half;
@@ -80,16 +78,14 @@ fn a_gaze_that_is_lost_and_found() {
 /// Without the gaze's space it is not known whether there is a gaze: the inset stands ahead, and all else is as it was.
 #[test]
 fn it_stays_without_the_gazes_space() {
-    let name = "session::inset_gaze::it_stays_without_the_gazes_space";
     let looks = mock::Pose::new(Vec3::new(0.0, 1.6, 0.0), Quat::from_rotation_y(0.25));
     let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
         Change::Offer {
             spaces: vec![SpaceKind::View, SpaceKind::Local, SpaceKind::Stage],
         },
         Change::Gaze(Some(looks)),
     ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let Some((mock, mut client)) = opened(&changes) else {
         return;
     };
     client.drawn();

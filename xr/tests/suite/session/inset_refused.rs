@@ -7,30 +7,17 @@ use crate::session::client::Client;
 use crate::session::inset::{
     FOLLOWS, OF_QUAD, OF_STEREO, QUAD, begun, is_stereo, opened, shown, until_renewed,
 };
+use crate::session::refused::{VALIDATION_FAILURE, refuse};
 
-/// XR_ERROR_VALIDATION_FAILURE, XR_ERROR_INITIALIZATION_FAILED and XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED
-const VALIDATION_FAILURE: i32 = -1;
+/// XR_ERROR_INITIALIZATION_FAILED and XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED
 const INITIALIZATION_FAILED: i32 = -6;
 const UNSUPPORTED: i32 = -41;
-
-fn refuse(call: &str, answer: i32, when: &str) -> Change {
-    Change::Refuse {
-        call: call.to_owned(),
-        answer,
-        times: None,
-        when: Some(when.to_owned()),
-    }
-}
 
 /// A new session begins, once, with the eyes' views alone.
 #[test]
 fn refused_at_the_sessions_begin() {
-    let name = "session::inset_refused::refused_at_the_sessions_begin";
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrBeginSession", UNSUPPORTED, &OF_QUAD.to_string()),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let begin = refuse("xrBeginSession", UNSUPPORTED, Some(&OF_QUAD.to_string()));
+    let Some((mock, mut client)) = opened(&[begin]) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -38,20 +25,19 @@ fn refused_at_the_sessions_begin() {
 }
 
 /// A client on a runtime that has no images of that many pixels.
-fn without_images(name: &str, [width, height]: [u32; 2]) -> Option<(Mock, Client)> {
+fn without_images([width, height]: [u32; 2]) -> Option<(Mock, Client)> {
     let images = format!("{width} x {height}");
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrCreateSwapchain", VALIDATION_FAILURE, &images),
-    ];
-    opened(name, &changes)
+    opened(&[refuse(
+        "xrCreateSwapchain",
+        VALIDATION_FAILURE,
+        Some(&images),
+    )])
 }
 
 #[test]
 fn refused_images() {
-    let name = "session::inset_refused::refused_images";
     let extent = Inset::default().following[1];
-    let Some((mock, mut client)) = without_images(name, extent) else {
+    let Some((mock, mut client)) = without_images(extent) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -62,9 +48,8 @@ fn refused_images() {
 /// The inset's depth alone is left out where it alone is refused.
 #[test]
 fn refused_images_of_depth() {
-    let name = "session::inset_refused::refused_images_of_depth";
     let extent = depth_extent(Inset::default().following[1]);
-    let Some((mock, mut client)) = without_images(name, extent) else {
+    let Some((mock, mut client)) = without_images(extent) else {
         return;
     };
     client.drawn();
@@ -79,12 +64,8 @@ fn refused_images_of_depth() {
 /// A runtime that offers four views and takes no frame with them is given two.
 #[test]
 fn refused_at_every_frames_end() {
-    let name = "session::inset_refused::refused_at_every_frames_end";
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrEndFrame", VALIDATION_FAILURE, "4 views"),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let end = refuse("xrEndFrame", VALIDATION_FAILURE, Some("4 views"));
+    let Some((mock, mut client)) = opened(&[end]) else {
         return;
     };
     let others = until_renewed(&mut client);
@@ -98,12 +79,9 @@ fn refused_at_every_frames_end() {
 }
 
 /// A runtime that makes no instance with the extensions that it offers makes one without.
-fn refused_with(name: &str, extension: &str) {
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrCreateInstance", INITIALIZATION_FAILED, extension),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+fn refused_with(extension: &str) {
+    let instance = refuse("xrCreateInstance", INITIALIZATION_FAILED, Some(extension));
+    let Some((mock, mut client)) = opened(&[instance]) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -121,28 +99,21 @@ fn refused_with(name: &str, extension: &str) {
 
 #[test]
 fn refused_with_the_instance() {
-    refused_with("session::inset_refused::refused_with_the_instance", QUAD);
+    refused_with(QUAD);
 }
 
 #[test]
 fn refused_with_the_instance_for_the_gaze() {
-    let name = "session::inset_refused::refused_with_the_instance_for_the_gaze";
-    refused_with(name, FOLLOWS);
+    refused_with(FOLLOWS);
 }
 
 /// A session that is lost for another reason has its inset again.
 #[test]
 fn another_call_that_is_always_refused() {
-    let name = "session::inset_refused::another_call_that_is_always_refused";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
-    mock.say(Change::Refuse {
-        call: "xrSyncActions".to_owned(),
-        answer: VALIDATION_FAILURE,
-        times: None,
-        when: None,
-    });
+    mock.say(refuse("xrSyncActions", VALIDATION_FAILURE, None));
     let others = until_renewed(&mut client);
     assert!(
         others.iter().any(|it| it.contains("xrSyncActions")),
@@ -159,8 +130,7 @@ fn another_call_that_is_always_refused() {
 /// Images that can be given back are, whichever of the images before them could not.
 #[test]
 fn refused_images_that_are_given_back() {
-    let name = "session::inset_refused::refused_images_that_are_given_back";
-    let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
+    let Some((mock, mut client)) = opened(&[]) else {
         return;
     };
     // Colour and depth of the eyes and of the inset, and the panel's.

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use vitriol_tests::monado::{self, Controller};
-use vitriol_tests::program::Kept;
+use vitriol_tests::program::{Kept, own_name};
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::{Headset, Side, Turn};
 
@@ -12,7 +12,7 @@ use crate::session::client::{Client, focused};
 
 #[test]
 fn an_exit_that_is_asked_for_comes() {
-    let Some(_rig) = monado::enter("session::life::an_exit_that_is_asked_for_comes") else {
+    let Some(_rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut client = Client::open();
@@ -36,7 +36,7 @@ fn an_exit_that_is_asked_for_comes() {
 
 #[test]
 fn every_frame_that_has_begun_is_ended() {
-    let Some(_rig) = monado::enter("session::life::every_frame_that_has_begun_is_ended") else {
+    let Some(_rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut client = Client::open();
@@ -103,11 +103,10 @@ fn until(client: &mut Client, wanted: impl Fn(&Turn) -> bool) {
 
 #[test]
 fn the_focus_goes_to_another_program_and_comes_back() {
-    let name = "session::life::the_focus_goes_to_another_program_and_comes_back";
     if std::env::var_os(OTHER).is_some() {
         another_program();
     }
-    let Some(rig) = monado::enter(name) else {
+    let Some(rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut client = Client::open();
@@ -120,7 +119,7 @@ fn the_focus_goes_to_another_program_and_comes_back() {
     };
     until(&mut client, has_hand);
     let other = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name, "--include-ignored"])
+        .args(["--exact", &own_name(), "--include-ignored"])
         .env(OTHER, "")
         // Its validation layer would empty the file of ours.
         .env(

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use vitriol_gpu::Buffer;
 use vitriol_tests::monado::{self, Controller, Rig};
+use vitriol_tests::program::own_name;
 use vitriol_tests::wait::{PATIENCE, own_time};
 use vitriol_xr::{Headset, HeadsetFrame, Side, Turn};
 
@@ -78,7 +79,7 @@ fn open_handles() -> usize {
 
 #[test]
 fn a_killed_runtime_is_found_again() {
-    let Some(mut rig) = monado::enter("session::loss::a_killed_runtime_is_found_again") else {
+    let Some(mut rig) = monado::enter(&own_name()) else {
         return;
     };
     let mut client = Client::open();

@@ -8,8 +8,7 @@ use crate::session::client::on_mock;
 /// device.
 #[test]
 fn another_device_is_opened() {
-    let name = "session::lost_device::another_device_is_opened";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     for round in 0..2 {

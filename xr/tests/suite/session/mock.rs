@@ -7,7 +7,8 @@ use vitriol_tests::mock::{self, Change, HandState, Known, Layer, Mock, SpaceKind
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::{Headset, HeadsetError, OpenXr, Pose, Side, Turn};
 
-use crate::session::client::{Client, on_mock, options};
+use crate::session::client::{Client, enter, on_mock, options};
+use crate::session::refused::refuse;
 
 /// XR_ERROR_LIMIT_REACHED
 const LIMIT_REACHED: i32 = -10;
@@ -23,8 +24,7 @@ fn offer(floor: SpaceKind) -> Change {
 
 #[test]
 fn frames_are_shown_to_both_eyes() {
-    let name = "session::mock::frames_are_shown_to_both_eyes";
-    let Some((mock, mut client)) = on_mock(name, &[offer(SpaceKind::Stage)]) else {
+    let Some((mock, mut client)) = on_mock(&[offer(SpaceKind::Stage)]) else {
         return;
     };
     assert_eq!(client.xr.extent(), [64, 48]);
@@ -60,8 +60,7 @@ fn frames_are_shown_to_both_eyes() {
 
 #[test]
 fn a_controller_arrives_through_its_bindings() {
-    let name = "session::mock::a_controller_arrives_through_its_bindings";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     let left = HandState {
@@ -103,7 +102,7 @@ fn a_controller_arrives_through_its_bindings() {
 #[test]
 fn the_gaze_arrives() {
     let changes = [Change::offer_too("XR_EXT_eye_gaze_interaction")];
-    let Some(mock) = mock::enter("session::mock::the_gaze_arrives", &changes) else {
+    let Some(mock) = enter(&changes) else {
         return;
     };
     let mut client = Client::open_with(true);
@@ -138,8 +137,7 @@ fn the_gaze_is_not_asked_for_by_itself() {
         Change::offer_too("XR_EXT_eye_gaze_interaction"),
         Change::Gaze(Some(mock::Pose::IDENTITY)),
     ];
-    let name = "session::mock::the_gaze_is_not_asked_for_by_itself";
-    let Some((_mock, mut client)) = on_mock(name, &changes) else {
+    let Some((_mock, mut client)) = on_mock(&changes) else {
         return;
     };
     client.frame();
@@ -151,8 +149,7 @@ fn the_gaze_is_not_asked_for_by_itself() {
 
 #[test]
 fn a_change_takes_effect_in_its_frame() {
-    let name = "session::mock::a_change_takes_effect_in_its_frame";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     let first = mock.frame();
@@ -205,8 +202,7 @@ fn moves(mock: &Mock, client: &mut Client, space: SpaceKind) -> Vec<(f32, bool)>
 
 #[test]
 fn the_stage_moves_at_its_time() {
-    let name = "session::mock::the_stage_moves_at_its_time";
-    let Some(mock) = mock::enter(name, &[offer(SpaceKind::Stage)]) else {
+    let Some(mock) = enter(&[offer(SpaceKind::Stage)]) else {
         return;
     };
     let mut client = Client::open();
@@ -215,8 +211,7 @@ fn the_stage_moves_at_its_time() {
 
 #[test]
 fn the_floor_moves_at_its_time() {
-    let name = "session::mock::the_floor_moves_at_its_time";
-    let Some(mock) = mock::enter(name, &[offer(SpaceKind::LocalFloor)]) else {
+    let Some(mock) = enter(&[offer(SpaceKind::LocalFloor)]) else {
         return;
     };
     let mut client = Client::open();
@@ -228,18 +223,12 @@ fn the_floor_moves_at_its_time() {
 
 #[test]
 fn what_is_to_be_refused_is_refused() {
-    let name = "session::mock::what_is_to_be_refused_is_refused";
     let changes = [
         Change::refuse_once("xrCreateSession", LIMIT_REACHED),
         // A format that nobody asks for.
-        Change::Refuse {
-            call: "xrCreateSwapchain".to_owned(),
-            answer: LIMIT_REACHED,
-            times: None,
-            when: Some("37".to_owned()),
-        },
+        refuse("xrCreateSwapchain", LIMIT_REACHED, Some("37")),
     ];
-    let Some(mock) = mock::enter(name, &changes) else {
+    let Some(mock) = enter(&changes) else {
         return;
     };
     let Err(refused) = OpenXr::open(options(), |_| false) else {
@@ -265,7 +254,7 @@ fn what_is_to_be_refused_is_refused() {
 
 #[test]
 fn what_is_wrong_is_refused() {
-    let Some((mock, mut client)) = on_mock("session::mock::what_is_wrong_is_refused", &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     client.frame();
@@ -293,8 +282,7 @@ fn what_is_wrong_is_refused() {
 
 #[test]
 fn a_lost_session_is_followed_by_another() {
-    let name = "session::mock::a_lost_session_is_followed_by_another";
-    let Some(mock) = mock::enter(name, &[]) else {
+    let Some(mock) = enter(&[]) else {
         return;
     };
     let mut client = Client::open();
@@ -314,7 +302,7 @@ fn a_lost_session_is_followed_by_another() {
 
 #[test]
 fn the_way_down_is_legal_too() {
-    let Some((mock, mut client)) = on_mock("session::mock::the_way_down_is_legal_too", &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     mock.say(Change::Goal(mock::Goal::Idle));
@@ -338,8 +326,7 @@ fn the_way_down_is_legal_too() {
 
 #[test]
 fn what_is_not_known_is_rubbish() {
-    let Some((mock, mut client)) = on_mock("session::mock::what_is_not_known_is_rubbish", &[])
-    else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     mock.say(Change::Head {
@@ -364,7 +351,6 @@ fn what_is_not_known_is_rubbish() {
 
 #[test]
 fn hands_without_controllers_and_masks_arrive() {
-    let name = "session::mock::hands_without_controllers_and_masks_arrive";
     let joint = |x: f32| mock::Joint {
         pose: mock::Pose::at(x, 1.2, -0.3),
         radius: 0.01,
@@ -387,7 +373,7 @@ fn hands_without_controllers_and_masks_arrive() {
             indices: vec![0, 1, 2],
         },
     ];
-    let Some(mock) = mock::enter(name, &changes) else {
+    let Some(mock) = enter(&changes) else {
         return;
     };
     let mut client = Client::open();

@@ -6,8 +6,7 @@ use crate::session::client::on_mock;
 
 #[test]
 fn it_is_heard_whichever_space_moves() {
-    let name = "session::recentring::it_is_heard_whichever_space_moves";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     for (n, space) in (1..).zip([SpaceKind::Local, SpaceKind::LocalFloor, SpaceKind::Stage]) {
@@ -33,8 +32,7 @@ fn it_is_heard_whichever_space_moves() {
 /// Poses leap in the frame in which the client reports it, in the space that the user recentres.
 #[test]
 fn poses_leap_as_it_is_told() {
-    let Some((mock, mut client)) = on_mock("session::recentring::poses_leap_as_it_is_told", &[])
-    else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     let (_, ended) = mock.frames().pop().unwrap();

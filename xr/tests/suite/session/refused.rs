@@ -7,7 +7,7 @@ use vitriol_xr::{Headset, Pose, Shown, Side, Turn};
 use crate::session::client::{Client, on_mock};
 
 /// XR_ERROR_VALIDATION_FAILURE and XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED
-const VALIDATION_FAILURE: i32 = -1;
+pub const VALIDATION_FAILURE: i32 = -1;
 const FORMAT_UNSUPPORTED: i32 = -26;
 
 /// XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT and XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT
@@ -15,7 +15,7 @@ const BLEND_TEXTURE_SOURCE_ALPHA: u64 = 2;
 const UNPREMULTIPLIED_ALPHA: u64 = 4;
 
 /// The runtime refuses that call always, where `when` holds.
-fn refuse(call: &str, answer: i32, when: Option<&str>) -> Change {
+pub fn refuse(call: &str, answer: i32, when: Option<&str>) -> Change {
     Change::Refuse {
         call: call.to_owned(),
         answer,
@@ -57,8 +57,8 @@ impl Last {
 }
 
 /// A client that has drawn some frames on a runtime that begins with `changes`.
-fn drawn(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
-    let (mock, mut client) = on_mock(name, changes)?;
+fn drawn(changes: &[Change]) -> Option<(Mock, Client)> {
+    let (mock, mut client) = on_mock(changes)?;
     for _ in 0..5 {
         client.drawn();
     }
@@ -68,9 +68,8 @@ fn drawn(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
 
 #[test]
 fn a_depth_format() {
-    let name = "session::refused::a_depth_format";
     let depth = refuse("xrCreateSwapchain", FORMAT_UNSUPPORTED, Some("126"));
-    let Some((mock, _client)) = drawn(name, &[depth]) else {
+    let Some((mock, _client)) = drawn(&[depth]) else {
         return;
     };
     let last = Last::of(&mock);
@@ -79,9 +78,8 @@ fn a_depth_format() {
 
 #[test]
 fn a_depth_range_without_end() {
-    let name = "session::refused::a_depth_range_without_end";
     let infinite = refuse("xrEndFrame", VALIDATION_FAILURE, Some("infinite depth"));
-    let Some((mock, _client)) = drawn(name, &[infinite]) else {
+    let Some((mock, _client)) = drawn(&[infinite]) else {
         return;
     };
     let last = Last::of(&mock);
@@ -99,9 +97,8 @@ fn a_depth_range_without_end() {
 
 #[test]
 fn depth_at_a_frames_end() {
-    let name = "session::refused::depth_at_a_frames_end";
     let depth = refuse("xrEndFrame", VALIDATION_FAILURE, Some("depth"));
-    let Some((mock, _client)) = drawn(name, &[depth]) else {
+    let Some((mock, _client)) = drawn(&[depth]) else {
         return;
     };
     let last = Last::of(&mock);
@@ -110,9 +107,8 @@ fn depth_at_a_frames_end() {
 
 #[test]
 fn the_panels_layer() {
-    let name = "session::refused::the_panels_layer";
     let quad = refuse("xrEndFrame", VALIDATION_FAILURE, Some("quad"));
-    let Some((mock, _client)) = drawn(name, &[quad]) else {
+    let Some((mock, _client)) = drawn(&[quad]) else {
         return;
     };
     let last = Last::of(&mock);
@@ -121,8 +117,7 @@ fn the_panels_layer() {
 
 #[test]
 fn images_with_a_layer_for_each_eye() {
-    let name = "session::refused::images_with_a_layer_for_each_eye";
-    let Some((mock, _client)) = drawn(name, &[Change::ArrayLayers(1)]) else {
+    let Some((mock, _client)) = drawn(&[Change::ArrayLayers(1)]) else {
         return;
     };
     let last = Last::of(&mock);
@@ -149,8 +144,7 @@ fn try_to_draw(client: &mut Client, shakes: f32, panel: bool) {
 
 #[test]
 fn any_call_of_a_frame_once() {
-    let name = "session::refused::any_call_of_a_frame_once";
-    let Some((mock, mut client)) = drawn(name, &[]) else {
+    let Some((mock, mut client)) = drawn(&[]) else {
         return;
     };
     for call in [
@@ -200,8 +194,7 @@ fn any_call_of_a_frame_once() {
 
 #[test]
 fn a_call_that_always_is_means_a_loss() {
-    let name = "session::refused::a_call_that_always_is_means_a_loss";
-    let Some((mock, mut client)) = drawn(name, &[]) else {
+    let Some((mock, mut client)) = drawn(&[]) else {
         return;
     };
     mock.say(refuse("xrLocateViews", VALIDATION_FAILURE, None));
@@ -224,8 +217,7 @@ fn a_call_that_always_is_means_a_loss() {
 /// A hand at rest gets no call, and one that was vibrating is stopped once.
 #[test]
 fn nothing_is_said_to_a_hand_at_rest() {
-    let name = "session::refused::nothing_is_said_to_a_hand_at_rest";
-    let Some((mock, mut client)) = drawn(name, &[]) else {
+    let Some((mock, mut client)) = drawn(&[]) else {
         return;
     };
     for felt in [0.0, 0.0, 0.5, 0.7, 0.0, 0.0, 0.0] {
@@ -247,8 +239,7 @@ fn nothing_is_said_to_a_hand_at_rest() {
 /// A panel that has not changed is shown as it was, without another image.
 #[test]
 fn a_panel_that_stays_takes_no_image() {
-    let name = "session::refused::a_panel_that_stays_takes_no_image";
-    let Some((mock, mut client)) = drawn(name, &[]) else {
+    let Some((mock, mut client)) = drawn(&[]) else {
         return;
     };
     let acquired = || mock.calls_of("xrAcquireSwapchainImage").len();

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use glam::{Quat, Vec3};
 use vitriol_tests::monado::{self, Remote, Rig};
+use vitriol_tests::program::own_name;
 use vitriol_xr::{Headset, Shown, View};
 
 use crate::session::client::Client;
@@ -15,17 +16,16 @@ const DUMP: &str = "XR_API_DUMP_FILE_NAME";
 
 #[test]
 fn a_frame_ends_with_its_own_time_and_views() {
-    let name = "session::rules::a_frame_ends_with_its_own_time_and_views";
     if let Some(dump) = std::env::var_os(DUMP) {
         return draw(Path::new(&dump));
     }
-    let Some(rig) = monado::enter(name) else {
+    let Some(rig) = monado::enter(&own_name()) else {
         return;
     };
     // The layer is of a process's environment.
     let layers = "XR_APILAYER_LUNARG_core_validation:XR_APILAYER_LUNARG_api_dump";
     let drawn = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name, "--nocapture", "--include-ignored"])
+        .args(["--exact", &own_name(), "--nocapture", "--include-ignored"])
         .env("XR_ENABLE_API_LAYERS", layers)
         .env("XR_API_DUMP_EXPORT_TYPE", "text")
         .env(DUMP, rig.folder().join("dump.txt"))

@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 use vitriol_tests::mock::{self, Change, Fov, HandState, Known, Mock};
 use vitriol_xr::{Headset, Pause, Pose, Side, Turn, View};
 
-use crate::session::client::{Client, on_mock};
+use crate::session::client::{Client, enter, on_mock};
 
 fn head(position: Vec3, yaw: f32, known: Known) -> Change {
     Change::Head {
@@ -26,9 +26,8 @@ fn is_turned(pose: &Pose, yaw: f32) -> bool {
 
 #[test]
 fn nothing_is_shown_before_the_head_is_seen() {
-    let name = "session::tracking::nothing_is_shown_before_the_head_is_seen";
     let unseen = head(Vec3::new(0.0, 1.6, 0.0), 0.0, Known::NOTHING);
-    let Some(mock) = mock::enter(name, &[unseen]) else {
+    let Some(mock) = enter(&[unseen]) else {
         return;
     };
     let mut client = Client::open();
@@ -63,8 +62,7 @@ fn seen(client: &mut Client, lost: bool) -> ([View; 2], Pose) {
 
 #[test]
 fn a_head_whose_place_is_lost_goes_on_turning() {
-    let name = "session::tracking::a_head_whose_place_is_lost_goes_on_turning";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     let place = Vec3::new(0.2, 1.5, 0.1);
@@ -106,9 +104,8 @@ fn a_head_whose_place_is_lost_goes_on_turning() {
 
 #[test]
 fn a_headset_that_only_turns_serves_after_a_while() {
-    let name = "session::tracking::a_headset_that_only_turns_serves_after_a_while";
     let turning = head(Vec3::new(0.0, 1.6, 0.0), 0.7, Known::TURNED);
-    let Some(mock) = mock::enter(name, &[turning]) else {
+    let Some(mock) = enter(&[turning]) else {
         return;
     };
     let mut client = Client::open();
@@ -124,8 +121,7 @@ fn a_headset_that_only_turns_serves_after_a_while() {
 
 #[test]
 fn a_hand_whose_place_is_lost_stays_where_it_was() {
-    let name = "session::tracking::a_hand_whose_place_is_lost_stays_where_it_was";
-    let Some((mock, mut client)) = on_mock(name, &[]) else {
+    let Some((mock, mut client)) = on_mock(&[]) else {
         return;
     };
     let held = HandState {
@@ -182,7 +178,7 @@ fn bare(apart: f32) -> Vec<mock::Joint> {
 #[test]
 fn a_bare_hand_is_seen() {
     let none = [0, 1].map(|side| Change::Hand { side, state: None });
-    let Some((mock, mut client)) = on_mock("session::tracking::a_bare_hand_is_seen", &none) else {
+    let Some((mock, mut client)) = on_mock(&none) else {
         return;
     };
     let mut see = |joints: Option<Vec<mock::Joint>>| {

@@ -204,125 +204,46 @@ fn conversion_keeps_every_bit_and_overwrites_nothing() {
     );
 }
 
+/// What is replaced in [`TEXT`] => by what => what is told, in parts that ` | ` divides. `⏎` is a line's end.
+///
+/// A decimal comma makes four numbers. A rotation is no quaternion, and no three angles without names.
+const BAD: &str = r#"
+seed = 7 => sede = 7 => line 4 | unknown field `sede` | seed
+squeeze = 1.0 => squeze = 1.0 => line 20 | unknown field `squeze` | squeeze
+roll = 90 => rol = 90 => line 26 | unknown field `rol` | roll
+ease = "linear" => ease = "quick" => line 21 | `quick` | `smooth`, `linear`, `hold`
+[0.5, 1.0, -1.5] => [0.5, 1,0, -1.5] => line 19 | has 4 numbers; write 3 | decimal point
+duration = 2.5⏎ =>  => missing field `duration`
+t = 2.0⏎ =>  => line 23 | missing field `t`
+t = 2.0 => t = 2.0.0 => line 24
+t = 2.0 => t = nan => test.toml:23 | right.t is NaN | between 0 and the duration, 2.5 s
+t = 2.0 => t = 0.75 => test.toml:23 | right.t is 0.75 after 1 | order of time
+t = 2.0 => t = 1.0 => test.toml:23 | right.t is 1 after 1
+t = 2.25 => t = 2.75 => test.toml:28 | right.t is 2.75 | 2.5 s
+t = 0.75 => t = -1.0 => test.toml:33 | scenario.t is -1
+key = "scenario" => key = "" => test.toml:33 | scenario.key is empty
+[9.0, 9.0, 9.0] => [9.0, inf, 9.0] => test.toml:28 | right.position has inf | finite
+yaw = 90 => yaw = nan => test.toml:8 | head.rotation has NaN
+rotation = { yaw = 90, pitch = -30, roll = 10 } => rotation = [0.0, 0.0, 0.0, 1.5] => line 11 | sequence | map
+yaw = 90 => yaww = 90 => `yaww` | `yaw`, `pitch`, `roll`
+squeeze = 1.0 => squeeze = 1.5 => test.toml:17 | right.squeeze is 1.5 | between 0 and 1
+position = [0.5, 1.0, -0.5]⏎ =>  => test.toml:13 | right.position is missing | metres
+duration = 2.5 => duration = nan => test.toml:5 | duration is NaN | above 0
+rate_hz = 60 => rate_hz = 0 => test.toml:6 | rate_hz is 0 | above 0
+name = "test" => name = "" => test.toml:2 | name is empty
+"#;
+
 #[test]
 fn bad_keyframes_are_refused_with_their_line() {
-    let cases = [
-        // (text, its replacement, parts of the message)
-        (
-            "seed = 7",
-            "sede = 7",
-            &["line 4", "unknown field `sede`", "seed"][..],
-        ),
-        (
-            "squeeze = 1.0",
-            "squeze = 1.0",
-            &["line 20", "unknown field `squeze`", "squeeze"],
-        ),
-        (
-            "roll = 90",
-            "rol = 90",
-            &["line 26", "unknown field `rol`", "roll"],
-        ),
-        (
-            "ease = \"linear\"",
-            "ease = \"quick\"",
-            &["line 21", "`quick`", "`smooth`, `linear`, `hold`"],
-        ),
-        // A decimal comma makes four numbers.
-        (
-            "[0.5, 1.0, -1.5]",
-            "[0.5, 1,0, -1.5]",
-            &["line 19", "has 4 numbers; write 3", "decimal point"],
-        ),
-        ("duration = 2.5\n", "", &["missing field `duration`"]),
-        ("t = 2.0\n", "", &["line 23", "missing field `t`"]),
-        ("t = 2.0", "t = 2.0.0", &["line 24"]),
-        (
-            "t = 2.0",
-            "t = nan",
-            &[
-                "test.toml:23",
-                "right.t is NaN",
-                "between 0 and the duration, 2.5 s",
-            ],
-        ),
-        (
-            "t = 2.0",
-            "t = 0.75",
-            &["test.toml:23", "right.t is 0.75 after 1", "order of time"],
-        ),
-        (
-            "t = 2.0",
-            "t = 1.0",
-            &["test.toml:23", "right.t is 1 after 1"],
-        ),
-        (
-            "t = 2.25",
-            "t = 2.75",
-            &["test.toml:28", "right.t is 2.75", "2.5 s"],
-        ),
-        (
-            "t = 0.75",
-            "t = -1.0",
-            &["test.toml:33", "scenario.t is -1"],
-        ),
-        (
-            "key = \"scenario\"",
-            "key = \"\"",
-            &["test.toml:33", "scenario.key is empty"],
-        ),
-        (
-            "[9.0, 9.0, 9.0]",
-            "[9.0, inf, 9.0]",
-            &["test.toml:28", "right.position has inf", "finite"],
-        ),
-        (
-            "yaw = 90",
-            "yaw = nan",
-            &["test.toml:8", "head.rotation has NaN"],
-        ),
-        // Not a quaternion, and not three angles without names.
-        (
-            "rotation = { yaw = 90, pitch = -30, roll = 10 }",
-            "rotation = [0.0, 0.0, 0.0, 1.5]",
-            &["line 11", "sequence", "map"],
-        ),
-        (
-            "yaw = 90",
-            "yaww = 90",
-            &["`yaww`", "`yaw`, `pitch`, `roll`"],
-        ),
-        (
-            "squeeze = 1.0",
-            "squeeze = 1.5",
-            &["test.toml:17", "right.squeeze is 1.5", "between 0 and 1"],
-        ),
-        (
-            "position = [0.5, 1.0, -0.5]\n",
-            "",
-            &["test.toml:13", "right.position is missing", "metres"],
-        ),
-        (
-            "duration = 2.5",
-            "duration = nan",
-            &["test.toml:5", "duration is NaN", "above 0"],
-        ),
-        (
-            "rate_hz = 60",
-            "rate_hz = 0",
-            &["test.toml:6", "rate_hz is 0", "above 0"],
-        ),
-        (
-            "name = \"test\"",
-            "name = \"\"",
-            &["test.toml:2", "name is empty"],
-        ),
-    ];
-    for (good, bad, says) in cases {
+    for case in BAD.trim().lines() {
+        let parts: Vec<String> = case.split(" => ").map(|it| it.replace('⏎', "\n")).collect();
+        let [good, bad, says] = &parts[..] else {
+            panic!("{case}");
+        };
         let text = TEXT.replacen(good, bad, 1);
         assert_ne!(text, TEXT, "{good}");
         let message = parse(&text).expect_err(bad).to_string();
-        for part in says.iter().chain(&["test.toml"]) {
+        for part in says.split(" | ").chain(["test.toml"]) {
             assert!(message.contains(part), "{bad}: no `{part}` in: {message}");
         }
     }

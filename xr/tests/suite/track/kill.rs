@@ -4,17 +4,18 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+use vitriol_tests::program::own_name;
 use vitriol_xr::track::{Existing, Track, TrackWriter};
 
 const FILE: &str = "VITRIOL_TEST_KILLED_TRACK";
 
-/// Runs the test `name` of this program again, as a child that writes to `file` and kills itself, and returns the track that can be read
+/// Runs this test again, as a child that writes to `file` and kills itself, and returns the track that can be read
 /// from the file.
-fn killed(name: &str) -> Track {
+fn killed() -> Track {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("killed.mcap");
     let status = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name, "--include-ignored"])
+        .args(["--exact", &own_name(), "--include-ignored"])
         .env(FILE, &file)
         .output()
         .unwrap()
@@ -42,7 +43,7 @@ fn at_most_a_second_of_the_track_is_lost() {
         // No destructor runs, nothing is flushed.
         std::process::abort();
     }
-    let track = killed("track::kill::at_most_a_second_of_the_track_is_lost");
+    let track = killed();
     let whole = super::track(FRAMES);
     let kept = track.frames.len();
     assert_eq!(track.metadata, whole.metadata);
@@ -65,6 +66,6 @@ fn at_most_a_second_of_the_clock_is_lost() {
         }
         std::process::abort();
     }
-    let track = killed("track::kill::at_most_a_second_of_the_clock_is_lost");
+    let track = killed();
     assert!(track.frames.len() >= 5, "{} of 15", track.frames.len());
 }

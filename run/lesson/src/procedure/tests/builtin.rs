@@ -372,6 +372,17 @@ fn an_emergency_is_gone_through() {
     assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
 }
 
+/// Reasons as in a recording, and how each is said.
+const WHYS: &str = r#"
+{"why":"too-much","volume_m3":2.5e-6,"limit_m3":1e-6} => Too much was poured: 2.5 mL, where 1.0 mL is allowed.
+{"why":"spilt","volume_m3":2.5e-6,"limit_m3":1e-6} => Spilt: 2.5 mL, where 1.0 mL is allowed.
+{"why":"too-hot","flask":"b","temperature_c":71.6,"limit_c":60.0} => The liquid reached 72 °C; it was to stay below 60 °C.
+{"why":"sash-open","height_m":0.45,"limit_m":0.3} => The fume hood was open 45 cm, where 30 cm is allowed.
+{"why":"time-up","limit_s":60.0} => The time is up: 60 s.
+{"why":"not-worn","gear":"gloves"} => No gloves were worn.
+{"why":"not-worn","gear":"goggles"} => No goggles were worn.
+"#;
+
 #[test]
 fn why_is_said_in_each_language() {
     let why = Why::TooFast {
@@ -390,52 +401,10 @@ fn why_is_said_in_each_language() {
     );
     let texts = Texts::english().unwrap();
     let plain = |why: &Why| texts.why(why).replace('\u{a0}', " ");
-    let (volume_m3, limit_m3) = (2.5e-6, 1e-6);
-    assert_eq!(
-        plain(&Why::TooMuch {
-            volume_m3,
-            limit_m3
-        }),
-        "Too much was poured: 2.5 mL, where 1.0 mL is allowed."
-    );
-    assert_eq!(
-        plain(&Why::Spilt {
-            volume_m3,
-            limit_m3
-        }),
-        "Spilt: 2.5 mL, where 1.0 mL is allowed."
-    );
-    let hot = Why::TooHot {
-        flask: "b".to_owned(),
-        temperature_c: 71.6,
-        limit_c: 60.0,
-    };
-    assert_eq!(
-        plain(&hot),
-        "The liquid reached 72 °C; it was to stay below 60 °C."
-    );
-    let sash = Why::SashOpen {
-        height_m: 0.45,
-        limit_m: 0.3,
-    };
-    assert_eq!(
-        plain(&sash),
-        "The fume hood was open 45 cm, where 30 cm is allowed."
-    );
-    assert_eq!(
-        plain(&Why::TimeUp { limit_s: 60.0 }),
-        "The time is up: 60 s."
-    );
-    assert_eq!(
-        plain(&Why::NotWorn { gear: Gear::Gloves }),
-        "No gloves were worn."
-    );
-    assert_eq!(
-        plain(&Why::NotWorn {
-            gear: Gear::Goggles
-        }),
-        "No goggles were worn."
-    );
+    for line in WHYS.trim().lines() {
+        let (why, said) = line.split_once(" => ").unwrap();
+        assert_eq!(plain(&serde_json::from_str(why).unwrap()), said);
+    }
     let kinds = [
         Kind::WaterIntoAcid,
         Kind::PouredTooFast,

@@ -23,63 +23,34 @@ fn line_of(text: &str, piece: &str) -> usize {
     before.matches('\n').count() + 1
 }
 
+/// What is replaced => by what => its field, a piece of the line at which it is told, and what is right. The last one is told at the texts
+/// of its language.
+const FAULTS: &str = r#"
+hint_after_s = 20 => hint_after_s = "soon" => step[0].hint_after_s | "soon" | a number
+time_limit_s = 120 => time_limit = 120 => step[0].time_limit | time_limit = | `time_limit_s`
+points = 5⏎condition => points = 2000⏎condition => step[1].points | 2000 | 0 to 1000
+flask = "b"⏎at_least_ml => flask = "c"⏎at_least_ml => step[2].condition.holds.flask | "c" | "a", "b"
+step.look = { text = "看。", hint = "那里。" }⏎ =>  => texts.zh.step.look | step.pour = { text = "倒 | give its texts
+"#;
+
 /// Of each kind one: a value of a wrong kind, a key that is not known, a number out of its range, a flask that the scene does not have,
 /// a text that is missing.
 #[test]
 fn all_faults_are_told_in_one_go_with_their_lines() {
-    let changes = [
-        (
-            "hint_after_s = 20",
-            "hint_after_s = \"soon\"",
-            "step[0].hint_after_s",
-        ),
-        (
-            "time_limit_s = 120",
-            "time_limit = 120",
-            "step[0].time_limit",
-        ),
-        (
-            "points = 5\ncondition",
-            "points = 2000\ncondition",
-            "step[1].points",
-        ),
-        (
-            "flask = \"b\"\nat_least_ml",
-            "flask = \"c\"\nat_least_ml",
-            "step[2].condition.holds.flask",
-        ),
-        (
-            "step.look = { text = \"看。\", hint = \"那里。\" }\n",
-            "",
-            "texts.zh.step.look",
-        ),
-    ];
+    let cases: Vec<[String; 3]> = FAULTS.trim().lines().map(case).collect();
     let mut text = GOOD.to_owned();
-    for (from, to, _) in changes {
+    for [from, to, _] in &cases {
         assert!(text.contains(from), "{from}");
         text = text.replacen(from, to, 1);
     }
     let found = faults(&text);
-    let fields: Vec<&str> = found.iter().map(|it| it.field.as_str()).collect();
-    assert_eq!(fields, changes.map(|it| it.2), "{found:?}");
-    // The last is told at the texts of its language.
-    let places = [
-        "\"soon\"",
-        "time_limit =",
-        "2000",
-        "\"c\"",
-        "step.pour = { text = \"倒",
-    ];
-    let lines: Vec<usize> = found.iter().map(|it| it.line).collect();
-    assert_eq!(lines, places.map(|it| line_of(&text, it)));
-    let right = [
-        "a number",
-        "`time_limit_s`",
-        "0 to 1000",
-        "\"a\", \"b\"",
-        "give its texts",
-    ];
-    for (fault, right) in found.iter().zip(right) {
+    assert_eq!(found.len(), cases.len(), "{found:?}");
+    for (fault, [.., told]) in found.iter().zip(&cases) {
+        let [field, place, right] = told.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{told}");
+        };
+        assert_eq!(fault.field, field, "{found:?}");
+        assert_eq!(fault.line, line_of(&text, place), "{fault}");
         assert!(fault.text.contains(right), "{fault}");
     }
     let refused = Lesson::parse_for(&text, ("bad.toml", Language::En), |_| Ok(Some(facts())));
@@ -87,7 +58,7 @@ fn all_faults_are_told_in_one_go_with_their_lines() {
     for (told, fault) in message.lines().zip(&found) {
         assert_eq!(told, format!("bad.toml: {fault}"));
     }
-    assert_eq!(message.lines().count(), changes.len());
+    assert_eq!(message.lines().count(), cases.len());
 }
 
 /// What only follows from a fault is not told as another one.

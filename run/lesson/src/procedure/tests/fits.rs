@@ -4,8 +4,6 @@ use super::spoiled::GOOD;
 use super::*;
 use crate::Language;
 
-type Change<'a> = &'a dyn Fn(&mut SceneFacts);
-
 /// Properties of a bench with all bodies, from which tests take some away.
 pub(super) fn facts() -> SceneFacts {
     let flask = |name: &str| FlaskFacts {
@@ -33,109 +31,87 @@ fn read_for(text: &str, facts: SceneFacts) -> Result<Lesson, LessonError> {
     Lesson::parse_for(text, ("own.toml", Language::En), |_| Ok(Some(facts)))
 }
 
+/// The bench without what this names: a body, a flask of that name, or all but some of its liquid.
+fn without(what: &str) -> SceneFacts {
+    let mut facts = facts();
+    match what {
+        "a" => facts.flasks[0].name = "c".into(),
+        "b" => facts.flasks[1].name = "c".into(),
+        "lift of a" => facts.flasks[0].lifted = false,
+        "all but 12 mL" => facts.liquid_m3 = 12e-6,
+        "all but 160 mL" => facts.liquid_m3 = 160e-6,
+        "heat" => facts.heat = false,
+        "goggles" => facts.goggles = false,
+        "gloves" => facts.gloves = false,
+        "sash" => facts.sash = false,
+        "rod" => facts.rod = false,
+        "thermometer" => facts.thermometer = false,
+        "cloth" => facts.cloth = false,
+        "rinsing" => facts.rinsing = false,
+        _ => panic!("{what}"),
+    }
+    facts
+}
+
+/// What is taken from the bench, and the parts of what is said then of a lesson that asks for all of it.
+const LACKS: &str = r#"
+a | step 1, condition.poured.from: | no flask "a" | "c", "b"
+b | step 1, condition.poured.into: | no flask "b"
+lift of a | step 2, condition.all 2, any 1, lifted.flask: | "a" is fixed | "b"
+all but 12 mL | step 1, condition.poured.at_least_ml: | 12 mL in all
+all but 160 mL | step 3, condition.holds.at_least_ml: | 160 mL in all
+heat | step 1, keep 1: | "bench" has no heat
+gloves | step 1, keep 2: | "bench" has no gloves
+rod | step 2, condition.all 1, stirred: | stirring rod
+goggles | step 2, condition.all 2, any 2, goggles: | goggles
+"#;
+
 #[test]
 fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
-    let changes: &[(Change<'_>, &[&str])] = &[
-        (
-            &|it| it.flasks[0].name = "c".into(),
-            &[
-                "step 1, condition.poured.from:",
-                "no flask \"a\"",
-                "\"c\", \"b\"",
-            ],
-        ),
-        (
-            &|it| it.flasks[1].name = "c".into(),
-            &["step 1, condition.poured.into:", "no flask \"b\""],
-        ),
-        (
-            &|it| it.flasks[0].lifted = false,
-            &[
-                "step 2, condition.all 2, any 1, lifted.flask:",
-                "\"a\" is fixed",
-                "\"b\"",
-            ],
-        ),
-        (
-            &|it| it.liquid_m3 = 12e-6,
-            &["step 1, condition.poured.at_least_ml:", "12 mL in all"],
-        ),
-        (
-            &|it| it.liquid_m3 = 160e-6,
-            &["step 3, condition.holds.at_least_ml:", "160 mL in all"],
-        ),
-        (
-            &|it| it.heat = false,
-            &["step 1, keep 1:", "\"bench\" has no heat"],
-        ),
-        (
-            &|it| it.gloves = false,
-            &["step 1, keep 2:", "\"bench\" has no gloves"],
-        ),
-        (
-            &|it| it.rod = false,
-            &["step 2, condition.all 1, stirred:", "stirring rod"],
-        ),
-        (
-            &|it| it.goggles = false,
-            &["step 2, condition.all 2, any 2, goggles:", "goggles"],
-        ),
-    ];
-    for (change, needed) in changes {
-        let mut facts = facts();
-        change(&mut facts);
-        let error = read_for(GOOD, facts).unwrap_err().to_string();
+    for line in LACKS.trim().lines() {
+        let (what, needed) = line.split_once(" | ").unwrap();
+        let error = read_for(GOOD, without(what)).unwrap_err().to_string();
         assert!(error.starts_with("own.toml: "), "{error}");
-        for needed in *needed {
+        for needed in needed.split(" | ") {
             assert!(error.contains(needed), "{needed} is not in {error}");
         }
     }
 }
 
-/// Each body, alone, is asked for by the conditions that need it.
+/// What a condition needs.
+const CONDITIONS: &str = r#"
+goggles: goggles = { on = true }
+gloves: gloves = { on = false }
+sash: sash = { at_most_m = 0.3 }
+thermometer: measured = { flask = "b", for_s = 3 }
+cloth: wiped = { surface = "bench", at_most_ml = 1 }
+rinsing: rinsed = { hand = "left-hand", at_least_ml = 50 }
+heat: temperature = { flask = "b", at_most_c = 30 }
+lift of a: put-down = { flask = "a" }
+"#;
+
+/// Each body, alone, is asked for by the conditions and requirements that need it.
 #[test]
 fn each_body_is_asked_for_by_what_needs_it() {
-    let refused = |body: &str, change: &dyn Fn(&mut SceneFacts)| {
+    let refused = |body: &str, what: &str| {
         let own = text(&[("one", body)], &[]);
         read_for(&own, facts()).unwrap();
-        let mut facts = facts();
-        change(&mut facts);
-        read_for(&own, facts).is_err()
+        read_for(&own, without(what)).is_err()
     };
     let of = |condition: &str| format!("condition = {{ {condition} }}");
-    let keep =
-        |keep: &str| format!("condition = {{ lifted = {{ flask = \"a\" }} }}\nkeep = [{keep}]");
-    assert!(refused(&of("goggles = { on = true }"), &|it| it.goggles = false));
-    assert!(refused(&of("gloves = { on = false }"), &|it| it.gloves = false));
-    assert!(refused(&of("sash = { at_most_m = 0.3 }"), &|it| it.sash = false));
-    assert!(refused(
-        &of("measured = { flask = \"b\", for_s = 3 }"),
-        &|it| it.thermometer = false
-    ));
-    assert!(refused(
-        &of("wiped = { surface = \"bench\", at_most_ml = 1 }"),
-        &|it| it.cloth = false
-    ));
-    assert!(refused(
-        &of("rinsed = { hand = \"left-hand\", at_least_ml = 50 }"),
-        &|it| it.rinsing = false
-    ));
-    assert!(refused(
-        &of("temperature = { flask = \"b\", at_most_c = 30 }"),
-        &|it| it.heat = false
-    ));
-    assert!(refused(&of("put-down = { flask = \"a\" }"), &|it| it
-        .flasks[0]
-        .lifted =
-        false));
-    assert!(refused(&keep("\"goggles\""), &|it| it.goggles = false));
-    assert!(refused(&keep("{ sash = { at_most_m = 0.3 } }"), &|it| it
-        .sash =
-        false));
-    assert!(refused(&keep("{ never = \"hot\" }"), &|it| it.heat = false));
-    assert!(!refused(&keep("{ never = \"boiled-over\" }"), &|it| it
-        .heat =
-        false));
+    for line in CONDITIONS.trim().lines() {
+        let (what, condition) = line.split_once(": ").unwrap();
+        assert!(refused(&of(condition), what), "{condition}");
+    }
+    for (keep, what, is_refused) in [
+        (r#""goggles""#, "goggles", true),
+        ("{ sash = { at_most_m = 0.3 } }", "sash", true),
+        (r#"{ never = "hot" }"#, "heat", true),
+        (r#"{ never = "boiled-over" }"#, "heat", false),
+    ] {
+        let body = format!("{}\nkeep = [{keep}]", of(r#"lifted = { flask = "a" }"#));
+        assert_eq!(refused(&body, what), is_refused, "{keep}");
+    }
     let same = text(
         &[(
             "one",

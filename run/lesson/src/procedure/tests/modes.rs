@@ -163,14 +163,8 @@ fn it_begins_again_with_its_scene() {
     run.look(1.0, &lifts);
     run.hear(&[boiled_over(10.5)]);
     assert!(!run.line("order").met && run.status("two") == Status::Open);
-    let begun = Event::Begun {
-        t_s: run.t,
-        scene: "bench".to_owned(),
-        contents: Default::default(),
-        glass: Default::default(),
-    };
     let from = run.said.len();
-    run.hear(&[ended(run.t), begun]);
+    run.hear(&[ended(run.t), begun(run.t)]);
     assert!(run.line("order").met);
     assert_eq!(
         (run.status("one"), run.status("two")),
@@ -187,13 +181,7 @@ fn it_begins_again_with_its_scene() {
     let body = "condition = { put-down = { flask = \"a\" } }";
     let mut run = Run::new(lesson(&[("one", body)], &[]), Mode::Guided);
     run.look(1.0, &lifts);
-    let begun = Event::Begun {
-        t_s: run.t,
-        scene: "bench".to_owned(),
-        contents: Default::default(),
-        glass: Default::default(),
-    };
-    run.hear(&[begun]);
+    run.hear(&[begun(run.t)]);
     run.wait(2.0);
     assert_eq!(run.status("one"), Status::Open);
 }

@@ -45,13 +45,7 @@ fn what_was_said_comes_to_what_was_judged() {
         let again = first.lines[0].met && first.lines[0].failures == 1;
         assert_eq!(again, mode.tries_again());
         // And begun again.
-        let begun = Event::Begun {
-            t_s: run.t,
-            scene: "bench".to_owned(),
-            contents: Default::default(),
-            glass: Default::default(),
-        };
-        run.hear(&[begun]);
+        run.hear(&[begun(run.t)]);
         run.look(STEP, &|sight| sight.flasks[0].held = true);
         let second = run.procedure.verdict();
         assert_ne!(first, second);

@@ -42,8 +42,7 @@ fn dies() {
 
 #[test]
 fn a_server_that_dies_ends_it_quietly() {
-    let name = "output::broken::a_server_that_dies_ends_it_quietly";
-    inside(name, dies, |folder| Server::start(name, folder));
+    inside(dies, Server::start);
 }
 
 #[test]
@@ -55,7 +54,7 @@ fn no_server_is_said() {
         silent.frame(Listener::default(), sizzle());
         assert_eq!((silent.state(), silent.latency()), (State::Silent, None));
     };
-    inside("output::broken::no_server_is_said", none, |_| Some(()));
+    inside(none, |_| Some(()));
 }
 
 /// The server listens, and never sends a message.
@@ -80,11 +79,7 @@ fn a_mute_server_is_not_waited_for() {
         );
     };
     let listen = |folder: &std::path::Path| UnixListener::bind(folder.join("socket")).ok();
-    inside(
-        "output::broken::a_mute_server_is_not_waited_for",
-        mute,
-        listen,
-    );
+    inside(mute, listen);
 }
 
 /// A server that is no PulseAudio is refused, whatever it sends.
@@ -117,5 +112,5 @@ fn nonsense_is_refused() {
         });
         Some(())
     };
-    inside("output::broken::nonsense_is_refused", nonsense, listen);
+    inside(nonsense, listen);
 }

@@ -168,7 +168,6 @@ fn script(mut peer: Peer) {
 
 #[test]
 fn a_server_that_runs_dry_is_asked_to_hold_more() {
-    let name = "output::dry::a_server_that_runs_dry_is_asked_to_hold_more";
     let client = || {
         let output = Output::open(Device::Default, Mixer::new(1)).unwrap();
         until("the script's end", || {
@@ -178,7 +177,7 @@ fn a_server_that_runs_dry_is_asked_to_hold_more() {
         assert_eq!(output.target(), Some(Duration::from_millis(120)));
     };
     let mut scripted = None;
-    inside(name, client, |folder| {
+    inside(client, |folder| {
         let listener = UnixListener::bind(folder.join("socket")).ok()?;
         let play = move || {
             let (client, _) = listener.accept().unwrap();
@@ -212,6 +211,5 @@ fn starves() {
 
 #[test]
 fn a_real_server_holds_more() {
-    let name = "output::dry::a_real_server_holds_more";
-    inside(name, starves, |folder| Server::start(name, folder));
+    inside(starves, Server::start);
 }

@@ -91,8 +91,7 @@ fn arrives() {
 
 #[test]
 fn what_is_played_arrives() {
-    let name = "output::played::what_is_played_arrives";
-    inside(name, arrives, |folder| Server::start(name, folder));
+    inside(arrives, Server::start);
 }
 
 /// A stream with an event at 90 Hz goes on, and buffers hold 30 ms at most. On a busy machine they run dry and this test is late; both are
@@ -147,8 +146,7 @@ fn goes_on() {
 
 #[test]
 fn a_stream_goes_on_within_thirty_milliseconds() {
-    let name = "output::played::a_stream_goes_on_within_thirty_milliseconds";
-    inside(name, goes_on, |folder| Server::start(name, folder));
+    inside(goes_on, Server::start);
 }
 
 fn outputs() {
@@ -167,6 +165,5 @@ fn outputs() {
 
 #[test]
 fn outputs_are_found_by_name() {
-    let name = "output::played::outputs_are_found_by_name";
-    inside(name, outputs, |folder| Server::start(name, folder));
+    inside(outputs, Server::start);
 }

@@ -5,14 +5,14 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use vitriol_tests::program::Kept;
+use vitriol_tests::program::{Kept, own_name};
 pub use vitriol_tests::wait::until;
 
 /// Marks a test that was started again.
 const INSIDE: &str = "VITRIOL_TEST_SOUND";
 
 /// Runs `body` in this test, started again with `socket` as its server's. The result of `before` lives as long.
-pub fn inside<T>(test: &str, body: impl FnOnce(), before: impl FnOnce(&Path) -> Option<T>) {
+pub fn inside<T>(body: impl FnOnce(), before: impl FnOnce(&Path) -> Option<T>) {
     if std::env::var_os(INSIDE).is_some() {
         body();
         return;
@@ -22,7 +22,8 @@ pub fn inside<T>(test: &str, body: impl FnOnce(), before: impl FnOnce(&Path) -> 
         return;
     };
     let mut again = Command::new(std::env::current_exe().unwrap());
-    again.args(["--exact", test, "--nocapture", "--include-ignored"]);
+    let test = own_name();
+    again.args(["--exact", &test, "--nocapture", "--include-ignored"]);
     own(&mut again, folder.path());
     let output = again.env(INSIDE, folder.path()).output().unwrap();
     eprint!("{}", String::from_utf8_lossy(&output.stdout));
@@ -75,7 +76,7 @@ pub struct Server(Kept);
 impl Server {
     /// Starts a server with an output "vitriol"; `None` where PulseAudio is not installed, with a message. With `CI=true` that is a
     /// failure.
-    pub fn start(test: &str, folder: &Path) -> Option<Self> {
+    pub fn start(folder: &Path) -> Option<Self> {
         let mut command = Command::new("pulseaudio");
         own(&mut command, folder);
         let socket = folder.join("socket");
@@ -103,7 +104,7 @@ impl Server {
         let (Ok(child), Ok(_)) = (command.spawn(), there) else {
             let cause = "pulseaudio and pulseaudio-utils are not installed (./lab setup does it)";
             assert!(std::env::var("CI").as_deref() != Ok("true"), "{cause}");
-            eprintln!("NOT TESTED: {test}: {cause}");
+            eprintln!("NOT TESTED: {}: {cause}", own_name());
             return None;
         };
         let mut server = Self(Kept(child));
