@@ -87,7 +87,7 @@ impl Recording {
     }
 
     /// Adds a picture where its time has come, with the time of the state that it shows. As in all films, the first one is of the first
-    /// step's end: before, no particle has found the neighbours that a liquid's surface is made of. So `/film` begins after `/particles`.
+    /// step's end, which makes the lists of neighbours that a liquid's surface is computed from. So `/film` begins after `/particles`.
     fn film(&mut self, moment: &Moment<'_>, laboratory: &mut Laboratory) -> Result<(), Failure> {
         let seconds = moment.time.seconds();
         let due = (seconds * f64::from(FILM_FPS) + 1e-6).floor() as u32 + 1;

@@ -23,6 +23,7 @@ use crate::thermometer::Thermometer;
 struct UnderWay {
     /// `None` where the device was lost in it.
     look: Option<Look>,
+    before: f64,
     t: f64,
     poses: Vec<Pose>,
     held: Vec<bool>,
@@ -71,8 +72,8 @@ impl Looks {
         }
     }
 
-    /// Observes `world` behind the step that was taken with that frame, [near](crate::stage) the scene's own origin, on that queue, after
-    /// which the run's time is `t` (s). Does not wait; gives the submission that it is in.
+    /// Observes `world` behind the step that was taken with that frame, [near](crate::stage) the scene's own origin, on that queue.
+    /// The run's time is `before` that step and `t` behind it (s). Does not wait; gives the submission that it is in.
     ///
     /// # Errors
     /// An error of the device.
@@ -81,7 +82,7 @@ impl Looks {
         world: &mut World,
         queue: QueueKind,
         near: &PoseFrame,
-        t: f64,
+        [before, t]: [f64; 2],
     ) -> Result<Ticket, Failure> {
         let scale = world.scene().scale.length_scale;
         // Tracked fingers are not recorded, so they are as a controller's would be.
@@ -95,6 +96,7 @@ impl Looks {
         let flasks = 0..world.scene().flasks.len();
         self.under_way.push_back(UnderWay {
             look: None,
+            before,
             t,
             poses: world.poses().to_vec(),
             held: flasks.map(|flask| world.holder(flask).is_some()).collect(),
@@ -192,6 +194,7 @@ impl Looks {
     fn seen(&mut self, of: UnderWay, census: Census, elapsed: f64) -> Looked {
         let seen = Seen {
             t: of.t,
+            before: of.before,
             elapsed,
             census: &census,
             poses: &of.poses,

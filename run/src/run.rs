@@ -279,6 +279,7 @@ impl Run {
         self.counts.flasks_broken += self.world.breaks().len() as u64;
         self.marks.wiped(&self.world);
         self.marks.wears(self.world.worn());
+        let before = self.time.seconds();
         self.time.advance(self.world.scene().scale.frame_time);
         let t = self.time.seconds();
         let held = |flask| self.world.holder(flask).is_some();
@@ -286,7 +287,8 @@ impl Run {
         self.sounds.extend(blows);
         let breaks = self.audible.broke(self.world.breaks(), t);
         self.sounds.extend(breaks);
-        submitted.push(self.looks.look(&mut self.world, queue, &near, t)?);
+        let look = (self.looks).look(&mut self.world, queue, &near, [before, t])?;
+        submitted.push(look);
         Ok(submitted)
     }
 

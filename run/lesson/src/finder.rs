@@ -26,7 +26,6 @@ use crate::event::{Content, Contents, Ending, Event};
 use crate::glass::{Glass, Glassware};
 use crate::limits::Limits;
 use crate::mixing::layered;
-use crate::time::whole_nanoseconds;
 use broken::GlassFalls;
 use flows::Flows;
 pub use flows::Stream;
@@ -48,6 +47,8 @@ const GRAVITY: f64 = 9.81;
 pub struct Seen<'a> {
     /// Simulated time of the run, s.
     pub t: f64,
+    /// Simulated time of the run before the step, s. Where times are rounded, `t` less a step may be another one.
+    pub before: f64,
     /// Simulated time since the previous observation, s.
     pub elapsed: f64,
     /// Census of the liquid: where it is, and what moved where.
@@ -66,13 +67,6 @@ pub struct Seen<'a> {
     pub sash_open: Option<f64>,
     /// Rod and thermometer.
     pub dipped: &'a [Dipped],
-}
-
-impl Seen<'_> {
-    /// Simulated time of the run at the previous observation, s.
-    fn before(&self) -> f64 {
-        whole_nanoseconds(self.t - self.elapsed)
-    }
 }
 
 /// A rod or a thermometer after the step.
@@ -230,7 +224,7 @@ impl Finder {
         let contents = bench.contents(seen.census);
         if !std::mem::replace(&mut self.begun, true) {
             said.push(Event::Begun {
-                t_s: seen.before(),
+                t_s: seen.before,
                 scene: self.scene.clone(),
                 contents: contents.clone(),
                 glass: self.glass.clone(),

@@ -57,7 +57,8 @@ pub fn incidents_csv(attempts: &[Attempt]) -> Result<Vec<u8>, TableError> {
 }
 
 fn row(number: u32, attempt: &Attempt, incident: &Incident) -> [String; HEADER.len()] {
-    // Its fields have the names of a recording's `/events`. A field that its kind does not have is null.
+    // Its fields have the names of a recording's `/events`. A field that its kind does not have is null,
+    // and so is a value that is no number: both cells are empty.
     let what = serde_json::to_value(&incident.what).unwrap_or_default();
     let text = |field: &str| what[field].as_str().unwrap_or_default();
     let scaled = |field: &str, factor: f64| {

@@ -92,10 +92,6 @@ fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
 /// 7 mm rose 1.15 times as fast as it should, with this 1.11 times.
 const MOST_ALONE: f32 = 0.45;
 
-/// Greatest C that a particle beside a cavity corrects in an iteration, as the speed h·C/Δt, m/s. Where a cavity comes over particles at
-/// once, a whole C would throw them with h/Δt, which grows as d shrinks. Chosen: with 1 m/s speeds are still cut at v_max.
-const MOST_PARTED: f32 = 0.3;
-
 /// Line 19: how much of its multiplier's change a particle takes that gas has swollen, or that is light: the sum of its gradients grows with its
 /// volume and with its lightness, and so would what an iteration overshoots.
 fn stiffness_of(i: u32) -> f32 {
@@ -151,7 +147,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // No more than wall and liquid leave: gas does not push a few drops that are alone in it.
         let liquid = min((sum + volume_in(own) * spline(0.0)) * weight_scale(), MOST_ALONE);
         constraint += min(cavity_volume(cavities[i], x - position[i].xyz), max(1.0 - wall_volume(wall) - liquid, 0.0));
-        if (cavities[i].w != 0) { constraint = min(constraint, MOST_PARTED * step.time * INVERSE_SUPPORT); }
     }
     update_multiplier(i, x, constraint);
 }

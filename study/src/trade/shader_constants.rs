@@ -84,7 +84,6 @@ groups! {
     }
     Bubbles "sim/multiplier.wgsl" {
         MOST_ALONE "1" "chosen by the rise of a bubble of 7 mm: a little less than a surface has",
-        MOST_PARTED "m/s" "bound: with 1 m/s cavities that come at once still throw particles at v_max",
     }
     Evaporation "sim/exchange.wgsl" {
         MOST_EVAPORATED "1" "bound: share of the water, in a substep",

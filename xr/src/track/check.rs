@@ -124,8 +124,8 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
 }
 
 /// Checks that a whole track begins at 0, where the simulation does. A later one was shifted by another program: its first pose would be
-/// held until then, and all would come too late. It is not shifted back here, since the file's other topics have the same clock. A first
-/// step above 0 is another thing: it says what is missing before it, and only a replay refuses that.
+/// held until then, and all would come too late. It is not shifted back here, since the file's other topics have the same clock. Where
+/// the first step is above 0, steps before it are missing; only a replay refuses that.
 fn start(frame: &PoseFrame) -> Result<(), Flaw> {
     if frame.step > 0 || frame.time_ns == 0 {
         return Ok(());

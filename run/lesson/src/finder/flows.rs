@@ -110,7 +110,7 @@ impl Flows {
             .and_then(|into| self.before.get(into).copied().flatten());
         let flow = self.open.entry(way).or_insert_with(|| Flow {
             // The liquid arrived during the step before this observation, so the flow began with that step.
-            amount: Amount::at(seen.before()),
+            amount: Amount::at(seen.before),
             met: before,
             bare_face: false,
             window: VecDeque::new(),
@@ -135,7 +135,7 @@ impl Flows {
             {
                 let (wrong, _) = flow
                     .wrong
-                    .get_or_insert_with(|| (Amount::at(seen.before()), met.acid));
+                    .get_or_insert_with(|| (Amount::at(seen.before), met.acid));
                 wrong.add(t, &bit);
             }
         }

@@ -128,6 +128,7 @@ mod tests {
         };
         finder.sight(&Seen {
             t: 3.0,
+            before: 2.9,
             elapsed: 0.1,
             census: &census,
             poses: &poses,
@@ -217,6 +218,7 @@ mod tests {
             }];
             let sight = finder.sight(&Seen {
                 t: 3.0,
+                before: 2.9,
                 elapsed: 0.1,
                 census: &census,
                 poses: &poses,

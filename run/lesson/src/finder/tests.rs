@@ -71,6 +71,7 @@ impl Arranged {
         change: &dyn Fn(Census) -> Census,
     ) {
         for n in 0..count {
+            let before = self.t;
             self.t += STEP;
             let census = change(Census {
                 flasks: self.held.to_vec(),
@@ -82,6 +83,7 @@ impl Arranged {
                 sash_open: None,
                 dipped: &[],
                 t: self.t,
+                before,
                 elapsed: STEP,
                 census: &census,
                 poses: &self.poses,
@@ -135,7 +137,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-9)
 }
 
-/// A pour begins with the step before the observation that shows it: at 0.06 s, where 0.06 + 0.01 - 0.01 is 0.05999999999999999.
+/// A pour begins with the step that the first observation of it is behind: at 0.06 s, where 0.06 + 0.01 - 0.01 is 0.05999999999999999.
 #[test]
 fn a_pour_begins_at_a_whole_time() {
     let mut arranged = Arranged::new([0.0, 0.98]);

@@ -208,7 +208,7 @@ mod tests {
     fn a_text_is_painted_on_its_ground() {
         let letters = Letters::new(1.0);
         let bright = |pixels: &[u32]| pixels.iter().filter(|it| **it & 0xff > 200).count();
-        for text in ["Beaker, 160 mL: press to take", "烧杯：按住即可拿起"] {
+        for text in ["Beaker, 160 mL: press to take", "烧杯：按下即可拿起"] {
             let (short, [wide, high]) = painted(&letters, text, 1280.0, SIZE);
             assert_eq!(short.len(), wide * high);
             assert!(bright(&short) > 100, "{text}");

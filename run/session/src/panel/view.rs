@@ -195,7 +195,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     let key = menu::SUMMARY.to_ascii_uppercase();
     let text = format!("{key}   {}", happened.back);
     let button = ui.add(Button::new(text.as_str()).min_size(size));
-    seen.aimed = Aimed::at(&button, &text, false);
+    seen.aimed = Aimed::at(&button, &text, false).or(seen.aimed.take());
     if button.clicked() {
         seen.clicked = Some(Decision::Summary);
     }

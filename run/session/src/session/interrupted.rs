@@ -35,6 +35,7 @@ impl Session {
         let info = self.info();
         if let Some(mirror) = &mut self.mirror {
             mirror.entitle(&info, &self.texts.panel, Some(why));
+            mirror.label(None);
         }
         self.steps.clock.pause();
         self.placement.interrupt();

@@ -35,8 +35,11 @@ fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol
         let near = stage::near_from_stage(frame, scene);
         let input = stage::input(frame, scene);
         world.step(&input).unwrap();
+        let before = t;
         t += scene.scale.frame_time;
-        looks.look(&mut world, QueueKind::Main, &near, t).unwrap();
+        looks
+            .look(&mut world, QueueKind::Main, &near, [before, t])
+            .unwrap();
         while let Some(looked) = looks.wait().unwrap() {
             each(&looked.sight, &looked.events);
         }

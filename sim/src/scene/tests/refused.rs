@@ -76,7 +76,7 @@ fn malformed_scenes_name_file_field_and_remedy() {
         "[floor]" => "[physical]\nambient = 20.0\n[floor]": "physical.ambient", "not used", "heat";
         "viscosity = 0.1" => "viscosity = 0.1\nvorticity = 1.0": "solver.vorticity", "model";
         "beaker-250" => "bucket": "flask[0].profile", "bucket", "beaker-250";
-        "[0.08, 0.03]" => "[0.08, 0.001]": "flask[1].points", "narrower than a particle";
+        "[0.08, 0.03]" => "[0.08, 0.001]": "flask[1].points", "narrower than a particle (0.005 m)";
         "[0.08, 0.03]" => "[0.0, 0.03]": "flask[1].points", "list the points from the floor up";
         "[0.08, 0.03]" => "[0.08, nan]": "flask[1].points", "NaN";
         "wall = 0.002" => "wall = -1.0": "flask[1].wall", "above zero";
@@ -87,7 +87,7 @@ fn malformed_scenes_name_file_field_and_remedy() {
         "[0.2, 0.5, 0.0]" => "[inf, 0.5, 0.0]": "flask[1].position", "inf";
         "name = \"b\"" => "name = \"a\"": "flask[1].name", "give another";
         "flask = \"a\"" => "flask = \"c\"": "liquid[0].flask", "no flask is named", "a, b";
-        "volume_ml = 100.0" => "volume_ml = 400.0": "liquid", "400 mL are asked for", "mL fit below the rim";
+        "volume_ml = 100.0" => "volume_ml = 400.0": "liquid", "400 mL are asked for", "mL fit below the rim", "use less";
         "volume_ml = 100.0" => "volume_ml = 1e30": "liquid", "fit below the rim";
         "volume_ml = 100.0" => "": "liquid[0].volume_ml", "exactly one";
         "acid_fraction = 0.0" => "acid_fraction = 1.5": "liquid[0].acid_fraction", "between 0 and 1";
