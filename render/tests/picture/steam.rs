@@ -197,7 +197,7 @@ fn mist_is_bright_against_the_window() {
 fn steam_stays_in_its_vessel() {
     let mut rig = rig();
     let inner = 0.02;
-    rig.set_vessels(vec![cylinder([inner.into(), 0.022], 0.002, 0.1)]);
+    rig.set_vessels(vec![cylinder([inner, 0.022], 0.002, 0.1)]);
     let foot = Vec3::new(0.0, 0.75, -0.4);
     let middle = foot + Vec3::Y * 0.05;
     let eye = middle + Vec3::Z * 0.3;

@@ -252,7 +252,7 @@ fn a_whole_track_begins_at_zero() {
     assert_eq!(read(&messages, true).unwrap().missing_first(), 1);
 
     let dir = tempfile::tempdir().unwrap();
-    let file = dir.path().join("late.mcap");
+    let file = dir.path().join("bad.mcap");
     let mut writer = TrackWriter::create(&file, &super::metadata(), Existing::Refuse).unwrap();
     let mut frame = super::frame(0);
     frame.time_ns = 1;
