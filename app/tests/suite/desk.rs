@@ -3,7 +3,6 @@
 //! Each step of a user waits for what the step before it has led to, and not for a time: a software driver takes up to half a second a frame.
 
 mod common;
-mod dilute;
 mod drag;
 mod hold;
 mod label;

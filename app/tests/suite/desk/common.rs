@@ -186,7 +186,7 @@ impl User {
     }
 
     /// Holds the arrow keys towards `error` while it is far, else in a frame in which it `moves`.
-    pub fn walk(&mut self, error: Vec3, tolerance: f32, moves: bool) {
+    fn walk(&mut self, error: Vec3, tolerance: f32, moves: bool) {
         let far = error.length() > FAR;
         self.hold(key::SHIFT, !far);
         for (symbol, along) in [

@@ -13,8 +13,8 @@ use vitriol_tests::screen::key;
 use vitriol_xr::Side;
 
 /// Q tilts to the left as the user sees it, and E to the right.
-pub const TILT_LEFT: u32 = 'q' as u32;
-pub const TILT_RIGHT: u32 = 'e' as u32;
+const TILT_LEFT: u32 = 'q' as u32;
+const TILT_RIGHT: u32 = 'e' as u32;
 
 /// Where a flask is to be, m: a finger's breadth.
 const NEAR: f32 = 0.02;
