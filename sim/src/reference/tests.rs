@@ -7,6 +7,7 @@ mod contact;
 mod dilution;
 mod eddies;
 mod mixing;
+mod mixing_line;
 mod passes;
 mod rest;
 mod surface;

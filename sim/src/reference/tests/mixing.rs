@@ -47,7 +47,7 @@ fn block(law: Law, of: impl Fn(f64) -> (f64, f64)) -> Reference {
     reference
 }
 
-fn physical(reference: &Reference) -> &ReferencePhysical {
+pub fn physical(reference: &Reference) -> &ReferencePhysical {
     match &reference.chemistry {
         Some(ReferenceChemistry::Physical(physical)) => physical,
         _ => panic!("has the physical chemistry"),
@@ -67,7 +67,7 @@ fn totals(physical: &ReferencePhysical) -> [f64; 3] {
 }
 
 /// Eddies of that diffusivity (m²/s) everywhere.
-fn stir(reference: &mut Reference, diffusivity: f64) {
+pub fn stir(reference: &mut Reference, diffusivity: f64) {
     if let Some(ReferenceChemistry::Physical(physical)) = &mut reference.chemistry {
         physical.eddies.fill(diffusivity);
     }
