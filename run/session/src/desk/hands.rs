@@ -284,11 +284,12 @@ impl Hands {
         let met = by_ray.is_some_and(|it| it.beside == 0.0);
         self.on_glove = self.points && !self.on_panel && !met && self.is_on_glove(around);
         // In every frame: the view may turn under a pointer that is still, and a flask may break.
-        self.picked = match self.points {
+        let picked = match self.points {
             _ if self.on_panel || self.on_glove => None,
             true => by_ray.map(|it| it.thing),
             false => by_place(level(self.spot), around),
         };
+        self.picked = picked.filter(|&it| !self.has_what_is_in(around, it));
         let chooses = self.chooses && !self.chosen && self.points && self.press.is_none();
         if chooses && self.movers.iter().all(Mover::is_free) {
             let clear = self

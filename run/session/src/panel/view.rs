@@ -266,7 +266,7 @@ fn state(ui: &mut Ui, info: &Info, words: &PanelTexts) {
 }
 
 fn thermometer(ui: &mut Ui, flask: &FlaskLine, words: &PanelTexts) {
-    ui.label(RichText::new(&flask.name).color(FAINT));
+    lines(ui, [Some(flask.name.clone())], FAINT);
     let wide = ui.available_width();
     let (rect, _) = ui.allocate_exact_size(vec2(wide, 34.0), Sense::hover());
     let painter = ui.painter();
@@ -319,7 +319,7 @@ fn legend(ui: &mut Ui, words: &PanelTexts) {
             ui.label(name);
         }
     });
-    ui.label(RichText::new(&words.tints).color(FAINT));
+    lines(ui, [Some(words.tints.clone())], FAINT);
 }
 
 /// What stands on a scene's button. A sign says the order, since its word has no room there.
@@ -344,7 +344,7 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
             seen.clicked = Some(decision);
         }
     };
-    ui.label(RichText::new(&words.hold).color(FAINT));
+    lines(ui, [Some(words.hold.clone())], FAINT);
     let shown = info.lesson.as_ref();
     let asks = shown.into_iter().flat_map(lesson::asks);
     let asks: Vec<_> = asks.collect();

@@ -1,7 +1,6 @@
 //! The label at a desk's pointer: the name of what that is at, and what a press does there.
 
 use glam::Vec3;
-use vitriol_sim::scene::ToolKind;
 use vitriol_xr::{Around, Pointed, Pose, Thing, View};
 
 use super::Session;
@@ -39,15 +38,13 @@ impl Session {
         Some(Label { text, bounds })
     }
 
-    /// The text for a flask, or for the tool behind the flasks; `None` where a press does nothing.
+    /// The text for a flask, or for the tool behind the flasks; `None` where there is none of that index.
     fn thing(&self, index: usize) -> Option<String> {
         let (words, world) = (&self.texts.pointed, &self.run.world);
         let (scene, names) = (world.scene(), self.readings.names());
         let Some(name) = names.get(index) else {
-            let kind = scene.tools.get(index.checked_sub(names.len())?)?.kind;
-            let both_on = world.worn().gloves == Some([true; 2]);
-            let of_use = kind != ToolKind::Gloves || !both_on;
-            return of_use.then(|| words.tool(kind).to_owned());
+            let tool = scene.tools.get(index.checked_sub(names.len())?)?;
+            return Some(words.tool(tool.kind).to_owned());
         };
         // A user who is examined is told nothing that the lesson is judged by.
         let told = self.guide.tells(&self.run);

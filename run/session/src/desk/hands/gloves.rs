@@ -2,7 +2,7 @@
 //! (`bodies::wear`).
 
 use glam::Vec3;
-use vitriol_xr::{Around, Pose, Side};
+use vitriol_xr::{Around, Kind, Pose, Side, Thing};
 
 use super::Hands;
 use super::hand::State;
@@ -42,6 +42,12 @@ impl Hands {
         let other = other(self.active) as usize;
         let free = self.movers.iter().all(|it| it.is_free());
         free && around.gloves[other] && around.holds[other].is_none()
+    }
+
+    /// Whether that thing is the box of gloves, and the active hand wears one: it would close there for nothing.
+    pub(super) fn has_what_is_in(&self, around: &Around, thing: usize) -> bool {
+        let is_box = |thing: &Thing| thing.kind == Kind::Gloves;
+        around.gloves[self.active as usize] && around.things.get(thing).is_some_and(is_box)
     }
 
     /// Whether the pointer is on a glove that can be pulled off.

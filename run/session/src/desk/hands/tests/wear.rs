@@ -68,16 +68,20 @@ fn goggles_that_are_dragged_are_put_down() {
     bench.stands(TARGET);
 }
 
+/// With a box of gloves beside the flasks, its index, and its middle.
+fn with_a_box() -> (Around, usize, Vec3) {
+    let mut around = two_flasks();
+    let pose = Pose::new(Vec3::new(0.30, TABLE, -0.20), Quat::IDENTITY);
+    let it = thing([0.08, 0.08, 0.09], pose, Kind::Gloves);
+    around.things.push(it);
+    let last = around.things.len() - 1;
+    (around, last, pose.position + 0.045 * Vec3::Y)
+}
+
 /// `Tab` is for the second glove alone: then the pointer takes the target with the hand beside which its pour falls, as it would without.
 #[test]
 fn gloves_leave_the_choice_of_the_hand_as_it_was() {
-    let mut around = two_flasks();
-    let pose = Pose::new(Vec3::new(0.30, TABLE, -0.20), Quat::IDENTITY);
-    let glove_box = around.things.len();
-    around
-        .things
-        .push(thing([0.08, 0.08, 0.09], pose, Kind::Gloves));
-    let at = pose.position + 0.045 * Vec3::Y;
+    let (around, glove_box, at) = with_a_box();
     let mut bench = Bench::new(around, RATES[0]);
     bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
     for side in [Side::Right, Side::Left] {
@@ -97,6 +101,23 @@ fn gloves_leave_the_choice_of_the_hand_as_it_was() {
     bench.press();
     bench.wait(1.0);
     assert_eq!(bench.around.holds, [None, Some(TARGET)]);
+}
+
+/// The box of gloves is no use to a hand that wears one, and is to the other one.
+#[test]
+fn a_hand_with_a_glove_does_not_go_to_the_box() {
+    let (mut around, glove_box, at) = with_a_box();
+    around.gloves = [false, true];
+    let mut bench = Bench::new(around, RATES[0]);
+    for (side, expected) in [
+        (Side::Right, None),
+        (Side::Left, Some(Pointed::Thing(glove_box))),
+    ] {
+        bench.controls.other = side == Side::Left;
+        bench.point(at);
+        assert_eq!(bench.hands.active(), side);
+        assert_eq!(bench.hands.pointed(), expected);
+    }
 }
 
 /// Pulled off by key, and by a click on the glove, also from a hand that is at a flask.
