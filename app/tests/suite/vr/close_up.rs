@@ -8,7 +8,7 @@ use vitriol_lesson::{Language, Texts};
 use vitriol_live::{Console, start, student};
 use vitriol_tests::{gpu, wait};
 
-use crate::vr::common::{Calm, Worn, hash, nobody, options, pour, session_with};
+use crate::vr::common::{Settled, Worn, hash, nobody, options, pour, session_with};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Frames at 60 Hz: in half a second of the display three pictures from close by are due.
@@ -35,7 +35,7 @@ fn ended(gpu: &Gpu, asks: bool) -> (u64, Vec<f32>, Option<Vec<u8>>) {
         language: Language::En,
     });
     let track = pour().sample_track();
-    let mut headset = Worn::of_extent(gpu, track, EXTENT, (60.0, FRAMES), Calm);
+    let mut headset = Worn::of_extent(gpu, track, EXTENT, (60.0, FRAMES), Settled(gpu.clone()));
     let (outcome, _) = session_with(&mut headset, options, nobody());
     let hash = hash(&outcome);
     let depth = headset.inner.targets.depth.as_ref().unwrap();

@@ -108,6 +108,20 @@ pub struct Calm;
 
 impl Trouble for Calm {}
 
+/// Waits for the device before a frame's steps and behind its end. With at most two steps a frame its picture shows all of them, and the
+/// panel what was observed up to the last frame, however fast the device is: two such sessions' pictures can be compared to the bit.
+pub struct Settled(pub Gpu);
+
+impl Trouble for Settled {
+    fn frame(&mut self, _: &mut HeadsetFrame, _: u64) {
+        self.0.wait_idle().unwrap();
+    }
+
+    fn ends(&mut self, _: u64) {
+        self.0.wait_idle().unwrap();
+    }
+}
+
 /// Asks in a frame that the scene begins anew. Frames after it do not count until the new bench is taken up; one whose device was lost
 /// before that is built again.
 pub struct StartsOver {

@@ -14,14 +14,14 @@ use vitriol_tests::gpu;
 use vitriol_xr::track::Track;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose, Turn, View};
 
-use crate::vr::common::{self, Trouble, Worn, hash, pour};
+use crate::vr::common::{self, Settled, Trouble, Worn, hash, pour};
 use crate::vr::loss::replayed;
 use crate::vr::seen::{keep_rgb, read};
 
 const EXTENT: [u32; 2] = [400, 425];
-/// Frames a second; the track's 9.6 s and half a second in which it is seen that the flask stands.
-const RATE: f64 = 30.0;
-const FRAMES: u64 = 304;
+/// Frames a second, of two steps each; the track's 9.6 s and half a second in which it is seen that the flask stands.
+const RATE: f64 = 45.0;
+const FRAMES: u64 = 456;
 
 /// The left eye's pictures, by frame, row by row.
 type Pictures = Rc<RefCell<BTreeMap<u64, Vec<[u8; 4]>>>>;
@@ -31,6 +31,7 @@ struct Looks {
     at: Vec<u64>,
     bare: Option<Vec3>,
     pictures: Pictures,
+    settled: Settled,
 }
 
 impl Trouble for Looks {
@@ -45,7 +46,12 @@ impl Trouble for Looks {
         None
     }
 
-    fn frame(&mut self, frame: &mut HeadsetFrame, _: u64) {
+    fn ends(&mut self, after: u64) {
+        self.settled.ends(after);
+    }
+
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
+        self.settled.frame(frame, after);
         if let Some(at) = self.bare {
             let hand = Hand {
                 active: true,
@@ -88,6 +94,7 @@ fn run_in(
         at: at.to_vec(),
         bare,
         pictures: Rc::clone(&pictures),
+        settled: Settled(gpu.clone()),
     };
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (RATE, frames), trouble);

@@ -6,14 +6,14 @@ use vitriol_session::foveating::Foveating;
 use vitriol_tests::gpu;
 use vitriol_xr::Pose;
 
-use crate::vr::common::{Calm, Worn, pour, run};
+use crate::vr::common::{Settled, Worn, pour, run};
 use crate::vr::seen::Seen;
 
 const EXTENT: [u32; 2] = [640, 680];
 
 fn look(gpu: &Gpu, foveating: Foveating) -> (Seen, String) {
     let track = pour().sample_track();
-    let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 6), Calm);
+    let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 6), Settled(gpu.clone()));
     let (outcome, _) = run(&mut headset, |it| it.foveating = Some(foveating));
     assert_eq!(outcome.foveating, Some(foveating));
     let hash = outcome.world.snapshot().unwrap().solver.hash();
@@ -27,7 +27,7 @@ fn pictures_are_sharp_where_the_user_looks() {
     let gpu = gpu::device();
     let (sharp, _) = look(&gpu, Foveating::Off);
     let track = pour().sample_track();
-    let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Calm);
+    let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Settled(gpu.clone()));
     // To the left and down of where the head is, half a metre off.
     let head = sharp.eye();
     let turn = head.orientation * Quat::from_rotation_y(0.45) * Quat::from_rotation_x(-0.3);

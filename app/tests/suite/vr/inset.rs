@@ -6,7 +6,7 @@ use vitriol_session::session::SessionOutcome;
 use vitriol_tests::gpu;
 use vitriol_xr::{Fov, Inset, InsetTargets, Pose, View, depth_extent};
 
-use crate::vr::common::{Calm, Worn, hash, pour, run};
+use crate::vr::common::{Settled, Worn, hash, pour, run};
 use crate::vr::seen::read;
 
 const EXTENT: [u32; 2] = [320, 340];
@@ -100,16 +100,16 @@ fn session(
     gpu: &Gpu,
     extent: [u32; 2],
     foveating: Foveating,
-    wear: impl FnOnce(&mut Worn<Calm>),
-) -> (Worn<Calm>, SessionOutcome) {
+    wear: impl FnOnce(&mut Worn<Settled>),
+) -> (Worn<Settled>, SessionOutcome) {
     let track = pour().sample_track();
-    let mut headset = Worn::of_extent(gpu, track, extent, (90.0, 5), Calm);
+    let mut headset = Worn::of_extent(gpu, track, extent, (90.0, 5), Settled(gpu.clone()));
     wear(&mut headset);
     let (outcome, _) = run(&mut headset, |it| it.foveating = Some(foveating));
     (headset, outcome)
 }
 
-fn with_inset(gpu: &Gpu, extent: [u32; 2]) -> (Worn<Calm>, SessionOutcome) {
+fn with_inset(gpu: &Gpu, extent: [u32; 2]) -> (Worn<Settled>, SessionOutcome) {
     session(gpu, EXTENT, Foveating::Eye, |headset| {
         headset.inset = Some(inset_of(gpu, extent));
         // Nothing is made of it: the runtime's foveation is.
@@ -118,7 +118,7 @@ fn with_inset(gpu: &Gpu, extent: [u32; 2]) -> (Worn<Calm>, SessionOutcome) {
 }
 
 /// Pictures of the inset.
-fn of_inset(gpu: &Gpu, headset: &Worn<Calm>) -> Pictures {
+fn of_inset(gpu: &Gpu, headset: &Worn<Settled>) -> Pictures {
     let (_, targets) = headset.inset.as_ref().unwrap();
     Pictures::of(gpu, &targets.colour, targets.depth.as_ref().unwrap())
 }
