@@ -146,7 +146,7 @@ mod tests {
             },
             other,
         ];
-        let hands = [AWAY, Vec3::new(0.02, 0.855, -0.214)];
+        let hands = [AWAY, Vec3::new(0.056, 0.855, -0.25)];
         let wide = View::look_at(
             Vec3::new(0.0, 1.06, 0.36),
             Vec3::new(0.0, 0.865, -0.40),

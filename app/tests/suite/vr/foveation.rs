@@ -27,7 +27,7 @@ fn pictures_are_sharp_where_the_user_looks() {
     let gpu = gpu::device();
     let (sharp, _) = look(&gpu, Foveating::Off);
     let track = pour().sample_track();
-    let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Settled(gpu.clone()));
+    let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Settled(Gpu::clone(&gpu)));
     // To the left and down of where the head is, half a metre off.
     let head = sharp.eye();
     let turn = head.orientation * Quat::from_rotation_y(0.45) * Quat::from_rotation_x(-0.3);
