@@ -56,10 +56,16 @@ fn takes_colours() -> bool {
     asked && std::io::stderr().is_terminal()
 }
 
-/// The error without clap's advice to give an unknown option as a track or a file: it is a mistyped one.
+/// The error without clap's tip to give an unknown option or subcommand as a track or a file: it is a mistyped one. clap names no kind of
+/// a tip, so this one is told by the command line that it ends with: `-- ` and the word.
 fn plain(mut error: clap::Error) -> clap::Error {
+    let word = error.get(ContextKind::InvalidArg);
+    let advised = match word.or_else(|| error.get(ContextKind::InvalidSubcommand)) {
+        Some(ContextValue::String(word)) => format!("-- {word}'"),
+        _ => return error,
+    };
     if let Some(ContextValue::StyledStrs(mut tips)) = error.remove(ContextKind::Suggested) {
-        tips.retain(|tip| !tip.to_string().contains("as a value, use"));
+        tips.retain(|tip| !tip.to_string().ends_with(&advised));
         if !tips.is_empty() {
             error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
         }

@@ -7,7 +7,7 @@ mod model;
 mod plot;
 
 #[cfg(feature = "class")]
-pub use happened::told_page;
+pub use happened::{outcome, told_page};
 pub use model::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, RecordingStatement, Report,
     SceneStatement, SolverStatement,

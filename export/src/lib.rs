@@ -24,7 +24,6 @@ use vitriol_run::{
 use vitriol_xr::track::TrackMetadata;
 
 pub use mesh::Mesh;
-pub use sink::TableFormat;
 pub use surfaces::Surfaces;
 
 use recording::Recording;
@@ -60,23 +59,9 @@ impl Format {
         }
     }
 
-    /// The table that it is, of measurements alone, which a report has too.
-    pub fn table(self) -> Option<TableFormat> {
-        match self {
-            Self::Csv => Some(TableFormat::Csv),
-            Self::Parquet => Some(TableFormat::Parquet),
-            _ => None,
-        }
-    }
-
-    /// Whether it has moments.
-    fn has_moments(self) -> bool {
-        self.table().is_none()
-    }
-
-    /// Whether it has samples.
-    fn has_samples(self) -> bool {
-        self == Self::Mcap || self.table().is_some()
+    /// Whether it is a table, of measurements alone, which a report has too.
+    pub fn is_table(self) -> bool {
+        matches!(self, Self::Csv | Self::Parquet)
     }
 }
 
@@ -145,8 +130,7 @@ impl Export {
                 Format::Vtk => Box::new(Vtk::default()),
                 Format::Ply => Box::new(Ply::default()),
                 Format::Gltf => Box::new(Gltf),
-                Format::Csv => Box::new(Measurements::new(TableFormat::Csv)),
-                Format::Parquet => Box::new(Measurements::new(TableFormat::Parquet)),
+                Format::Csv | Format::Parquet => Box::new(Measurements::after(0, *format)),
                 Format::Mcap => Box::new(Recording::new(origin, &mut out)?),
             });
         }
@@ -156,8 +140,8 @@ impl Export {
             written: 0,
             sinks,
             takes: [
-                formats.iter().any(|format| format.has_moments()),
-                formats.iter().any(|format| format.has_samples()),
+                formats.iter().any(|format| !format.is_table()),
+                (formats.iter()).any(|format| *format == Format::Mcap || format.is_table()),
             ],
             sampled: None,
             span,
@@ -178,14 +162,14 @@ impl Export {
     }
 }
 
-/// Writes measurements that are there already, of a run that brought up `scenes_before` others before.
+/// Writes measurements that are there already, of a run that brought up `scenes_before` others before; `formats` are tables.
 ///
 /// # Errors
 /// An error of the file system.
 pub fn tables(
     samples: &[Sample],
     scenes_before: u32,
-    formats: &[TableFormat],
+    formats: &[Format],
     out: &mut OutDir,
 ) -> Result<(), Failure> {
     for &format in formats {

@@ -15,7 +15,7 @@ use crate::cloud::Cloud;
 use crate::gltf::{self, Matter};
 use crate::surfaces::Surfaces;
 use crate::table::{Column, Csv, Parquet, Table, columns};
-use crate::{ply, room, vtk};
+use crate::{Format, ply, room, vtk};
 
 /// A moment that is exported; what formats share is made once, and only where one asks for it.
 pub struct Frame<'a> {
@@ -131,7 +131,10 @@ pub trait Sink {
     ///
     /// # Errors
     /// An error of the file system.
-    fn finish(&mut self, hash: u64, out: &mut OutDir) -> Result<(), Failure>;
+    fn finish(&mut self, hash: u64, out: &mut OutDir) -> Result<(), Failure> {
+        let _ = (hash, out);
+        Ok(())
+    }
 }
 
 /// Name of the file that a run's scene of that number, from 1, is written to.
@@ -233,10 +236,6 @@ impl Sink for Ply {
         self.room = false;
         Ok(())
     }
-
-    fn finish(&mut self, _hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
-        Ok(())
-    }
 }
 
 /// All that is seen, a `.glb` a moment.
@@ -256,37 +255,18 @@ impl Sink for Gltf {
         let bytes = gltf::bytes(&meshes, &frame.cameras(), frame.seconds);
         out.write(&format!("scene-{:06}.glb", frame.number), &bytes)
     }
-
-    fn finish(&mut self, _hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
-        Ok(())
-    }
-}
-
-/// Formats of tables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TableFormat {
-    /// RFC 4180.
-    Csv,
-    /// Apache Parquet.
-    Parquet,
 }
 
 /// Measurements, a table for each scene that a run brings up: others have other flasks.
 pub struct Measurements {
-    format: TableFormat,
+    format: Format,
     part: u32,
     begun: Option<(Vec<Column>, Box<dyn Table>, Staged)>,
 }
 
 impl Measurements {
-    /// Measurements in that format, for a run from its first scene on.
-    pub fn new(format: TableFormat) -> Self {
-        Self::after(0, format)
-    }
-
-    /// Measurements in that format, for a run that goes on after `scenes` scenes: the tables' numbers go on from there, in place of those
-    /// from [`Measurements::new`].
-    pub fn after(scenes: u32, format: TableFormat) -> Self {
+    /// Measurements as that table, for a run that goes on after `scenes` scenes: the tables' numbers go on from there.
+    pub fn after(scenes: u32, format: Format) -> Self {
         Self {
             format,
             part: scenes,
@@ -294,27 +274,16 @@ impl Measurements {
         }
     }
 
-    fn end(&mut self, out: &mut OutDir) -> Result<(), Failure> {
-        if let Some((_, table, staged)) = self.begun.take() {
-            table.finish().map_err(unwritten(&staged.path))?;
-            out.keep(staged)?;
-        }
-        Ok(())
-    }
-
     fn begin(&mut self, first: &Sample, out: &OutDir) -> Result<(), Failure> {
         self.part += 1;
-        let ending = match self.format {
-            TableFormat::Csv => "csv",
-            TableFormat::Parquet => "parquet",
-        };
-        let staged = out.stage(&part_name("measurements", self.part, ending))?;
+        let name = part_name("measurements", self.part, self.format.name());
+        let staged = out.stage(&name)?;
         let columns = columns(first);
         let begin = || -> Result<Box<dyn Table>, Cause> {
             let file = staged.try_clone()?;
             let table: Box<dyn Table> = match self.format {
-                TableFormat::Csv => Box::new(Csv::new(file, &columns)?),
-                TableFormat::Parquet => Box::new(Parquet::new(file, &columns)?),
+                Format::Parquet => Box::new(Parquet::new(file, &columns)?),
+                _ => Box::new(Csv::new(file, &columns)?),
             };
             Ok(table)
         };
@@ -337,10 +306,14 @@ impl Sink for Measurements {
     }
 
     fn start_over(&mut self, out: &mut OutDir) -> Result<(), Failure> {
-        self.end(out)
+        self.finish(0, out)
     }
 
     fn finish(&mut self, _hash: u64, out: &mut OutDir) -> Result<(), Failure> {
-        self.end(out)
+        if let Some((_, table, staged)) = self.begun.take() {
+            table.finish().map_err(unwritten(&staged.path))?;
+            out.keep(staged)?;
+        }
+        Ok(())
     }
 }

@@ -1,8 +1,6 @@
 //! `vitriol doctor`: what this machine has, and for what is missing a sentence
 //! with the remedy.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 use vitriol_gpu::advice::DRIVER;
 use vitriol_gpu::vk::PhysicalDeviceType;
@@ -209,10 +207,8 @@ fn openxr() -> (Option<OpenXr>, Vec<String>) {
 fn describe(findings: &Findings) -> String {
     let mut text = String::new();
     for device in &findings.devices {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{} device {}: {} ({}), Vulkan {}, {}",
+        text += &format!(
+            "{} device {}: {} ({}), Vulkan {}, {}\n",
             mark(device.usable),
             device.index,
             device.name,
@@ -221,9 +217,8 @@ fn describe(findings: &Findings) -> String {
             device.driver
         );
         let [least, usual] = device.subgroup_sizes;
-        let _ = writeln!(
-            text,
-            "      subgroups of {usual}, at least {least}{}",
+        text += &format!(
+            "      subgroups of {usual}, at least {least}{}\n",
             if device.maximal_reconvergence {
                 ", with maximal reconvergence"
             } else {
@@ -231,13 +226,13 @@ fn describe(findings: &Findings) -> String {
             }
         );
         for lack in &device.missing {
-            let _ = writeln!(text, "      lacks {lack}");
+            text += &format!("      lacks {lack}\n");
         }
         for lack in &device.missing_optional {
-            let _ = writeln!(text, "      without {lack}");
+            text += &format!("      without {lack}\n");
         }
         if let Some(advice) = device.advice {
-            let _ = writeln!(text, "      {advice}");
+            text += &format!("      {advice}\n");
         }
     }
     if let Some(openxr) = &findings.openxr {
@@ -251,7 +246,7 @@ fn describe(findings: &Findings) -> String {
             }
             false => ": none, DISPLAY is not set; `vitriol desk` needs an X server",
         };
-        let _ = writeln!(text, "{} screen{remedy}", mark(screen));
+        text += &format!("{} screen{remedy}\n", mark(screen));
     }
     if let Some(sound) = &findings.sound {
         describe_sound(sound, &mut text);
@@ -259,7 +254,7 @@ fn describe(findings: &Findings) -> String {
     if !findings.missing.is_empty() {
         text.push_str("\nMissing:\n");
         for lack in &findings.missing {
-            let _ = writeln!(text, "- {lack}");
+            text += &format!("- {lack}\n");
         }
     }
     text.push_str(match (findings.can_replay, findings.can_enter_vr) {
@@ -271,29 +266,26 @@ fn describe(findings: &Findings) -> String {
 }
 
 fn describe_openxr(openxr: &OpenXr, text: &mut String) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{} OpenXR loader", mark(openxr.loader));
-    let _ = writeln!(
-        text,
-        "{} OpenXR runtime: {}",
+    *text += &format!("{} OpenXR loader\n", mark(openxr.loader));
+    *text += &format!(
+        "{} OpenXR runtime: {}\n",
         mark(openxr.runtime.is_some()),
         openxr.runtime.as_deref().unwrap_or("none answers")
     );
     for extension in &openxr.extensions {
-        let _ = writeln!(text, "      {} {}", mark(extension.present), extension.name);
+        *text += &format!("      {} {}\n", mark(extension.present), extension.name);
     }
 }
 
 fn describe_sound(sound: &Sound, text: &mut String) {
-    // Writing to a string cannot fail.
     for SoundOutput { name, description } in &sound.outputs {
         let (name, description) = (in_a_line(name), in_a_line(description));
-        let _ = writeln!(text, "[ok] sound output {name}: {description}");
+        *text += &format!("[ok] sound output {name}: {description}\n");
     }
     if sound.outputs.is_empty() {
         let cause = sound.cause.as_deref().map(in_a_line);
         let cause = cause.as_deref().unwrap_or("the system has none");
-        let _ = writeln!(text, "[--] sound output: {cause}");
+        *text += &format!("[--] sound output: {cause}\n");
     }
 }
 

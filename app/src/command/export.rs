@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
+use vitriol_export::{Export, Format as Exported, Origin, Times};
 use vitriol_run::output::{OutDir, REPORT_JSON};
 use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, PRESET};
@@ -50,7 +50,7 @@ struct Done {
 /// is left then.
 pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let report = report(&args.input)?;
-    if args.at.is_some() && args.format.iter().any(|format| format.table().is_some()) {
+    if args.at.is_some() && args.format.iter().any(|format| format.is_table()) {
         return Err(
             "--at: a table has samples over time; leave csv and parquet out, or take --seconds"
                 .to_owned(),
@@ -66,7 +66,7 @@ pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     }
     let out = OutDir::take(args.out.as_deref(), &stem(&args.input))?;
     let done = match &report {
-        Some(report) if formats.iter().all(|format| format.table().is_some()) && is_whole(args) => {
+        Some(report) if formats.iter().all(|format| format.is_table()) && is_whole(args) => {
             of_report(report, &formats, out)?
         }
         _ => simulated(args, report.as_ref(), &formats, format, out)?,
@@ -124,8 +124,7 @@ fn of_report(report: &Report, formats: &[Exported], mut out: OutDir) -> Result<D
         return Err("the report has no series, as what `vitriol replay --json` prints has none; give the run's folder".to_owned())
             .input();
     }
-    let tables: Vec<TableFormat> = formats.iter().filter_map(|format| format.table()).collect();
-    vitriol_export::tables(&report.series, report.scenes_before, &tables, &mut out)?;
+    vitriol_export::tables(&report.series, report.scenes_before, formats, &mut out)?;
     finished(out, formats, 0)
 }
 

@@ -1,10 +1,9 @@
 //! `vitriol forget`: deletes all that is kept of a student, and says what it cannot delete.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use vitriol_record::store::{Forgotten, Store, StoreError, default_path};
+use vitriol_record::store::{Forgotten, Left, SentTo, Store, StoreError, default_path};
 use vitriol_run::units::count;
 use vitriol_run::{Blame, Failure, Format, emit};
 use vitriol_xr::files;
@@ -16,31 +15,8 @@ use crate::cli::ForgetArgs;
 struct Told {
     pseudonym: String,
     class: String,
-    /// What was deleted.
-    attempts: u64,
-    incidents: u64,
-    /// Statements that waited to be sent.
-    waiting: u64,
-    /// Files of statements.
-    files: Vec<String>,
-    /// Files of statements that could not be.
-    left: Vec<Left>,
-    /// What the attempts were read from; it is still there.
-    recordings: Vec<String>,
-    /// Statements that were sent before; they are still there.
-    sent: Vec<Sent>,
-}
-
-#[derive(Debug, Serialize)]
-struct Left {
-    path: String,
-    reason: String,
-}
-
-#[derive(Debug, Serialize)]
-struct Sent {
-    lrs: String,
-    statements: u64,
+    #[serde(flatten)]
+    forgotten: Forgotten,
 }
 
 /// Runs `vitriol forget`. That nothing is kept of a student is no failure.
@@ -63,24 +39,10 @@ pub fn run(args: &ForgetArgs, format: Format) -> Result<(), Failure> {
             (class, forgotten)
         }
     };
-    let shown = |path: PathBuf| path.display().to_string();
-    let left = forgotten.left.into_iter().map(|left| Left {
-        path: shown(left.path),
-        reason: left.reason,
-    });
-    let sent = forgotten.sent.into_iter();
     let told = Told {
         pseudonym: args.pseudonym.to_string(),
-        class: shown(class),
-        attempts: forgotten.attempts,
-        incidents: forgotten.incidents,
-        waiting: forgotten.waiting,
-        files: forgotten.files.into_iter().map(shown).collect(),
-        left: left.collect(),
-        recordings: forgotten.sources,
-        sent: sent
-            .map(|(lrs, statements)| Sent { lrs, statements })
-            .collect(),
+        class: class.display().to_string(),
+        forgotten,
     };
     emit(format, &told, describe)
 }
@@ -98,41 +60,36 @@ fn forget(args: &ForgetArgs, class: &Path) -> Result<Forgotten, Failure> {
 }
 
 fn describe(told: &Told) -> String {
-    let name = &told.pseudonym;
-    if told.attempts == 0 && told.files.is_empty() && told.left.is_empty() {
+    let (name, forgotten) = (&told.pseudonym, &told.forgotten);
+    if forgotten.attempts == 0 && forgotten.files.is_empty() && forgotten.left.is_empty() {
         return format!("Nothing is kept of {name} in {}\n", told.class);
     }
     let mut text = format!(
         "Deleted of {name}, from {}:\n- {}, with {}\n",
         told.class,
-        count(told.attempts, "attempt"),
-        count(told.incidents, "incident")
+        count(forgotten.attempts, "attempt"),
+        count(forgotten.incidents, "incident")
     );
-    // Writing to a string cannot fail.
-    if told.waiting > 0 {
-        let waiting = count(told.waiting, "statement");
-        let _ = writeln!(text, "- {waiting} that waited to be sent, and will not be");
+    if forgotten.waiting > 0 {
+        let waiting = count(forgotten.waiting, "statement");
+        text += &format!("- {waiting} that waited to be sent, and will not be\n");
     }
-    for file in &told.files {
-        let _ = writeln!(text, "- {file}");
+    for file in &forgotten.files {
+        text += &format!("- {}\n", file.display());
     }
-    let still = [told.left.len(), told.recordings.len(), told.sent.len()];
-    if still.iter().any(|&count| count > 0) {
+    let (left, sent) = (&forgotten.left, &forgotten.sent);
+    if !(left.is_empty() && forgotten.recordings.is_empty() && sent.is_empty()) {
         text.push_str("Not deleted:\n");
     }
-    for Left { path, reason } in &told.left {
-        let _ = writeln!(text, "- {path}: {reason}");
+    for Left { path, reason } in left {
+        text += &format!("- {}: {reason}\n", path.display());
     }
-    for recording in &told.recordings {
-        let _ = writeln!(
-            text,
-            "- {recording}, from which attempts were read: delete it yourself"
-        );
+    for recording in &forgotten.recordings {
+        text += &format!("- {recording}, from which attempts were read: delete it yourself\n");
     }
-    for Sent { lrs, statements } in &told.sent {
-        let _ = writeln!(
-            text,
-            "- {} that {lrs} was sent: they are not under Vitriol's control; ask who runs it to delete them",
+    for SentTo { lrs, statements } in sent {
+        text += &format!(
+            "- {} that {lrs} was sent: they are not under Vitriol's control; ask who runs it to delete them\n",
             count(*statements, "statement")
         );
     }

@@ -61,19 +61,18 @@ pub fn run(
     let (class, failure) = grade(args, format, prepare)?;
     let words = Words::of(args.language)?;
     emit(format, &class, |class| table::text(class, &words))?;
+    let files = &words.grades.files;
+    let only_files = matches!(failure, Some(Failure::Input(_))) && !args.strict;
     match failure {
-        Some(Failure::Input(_)) if class.graded > 0 && !args.strict => {
-            let files = &words.grades.files;
+        Some(_) if only_files && class.graded > 0 => {
             let names = class.bad(files);
             tracing::warn!("{}", files.bad.fill(&[("names", &names)]));
             Ok(())
         }
-        Some(failure) => Err(failure),
-        None if class.graded == 0 => {
-            let files = Words::of(args.language)?.grades.files;
-            Err(files.nothing.fill(&[])).input()
-        }
-        None => Ok(()),
+        // A bad file is not why nothing is graded where other recordings were read.
+        Some(failure) if !only_files || class.otherwise == 0 => Err(failure),
+        _ if class.graded == 0 => Err(files.nothing.fill(&[])).input(),
+        _ => Ok(()),
     }
 }
 
@@ -302,12 +301,21 @@ impl Read {
         (stem, student): (&str, &str),
         words: &Words,
     ) -> Result<String, Failure> {
-        let attempts: Vec<_> = match &self.graded.found {
-            Found::Attempts(all) => all.iter().map(|it| (&it.attempt, &it.score)).collect(),
-            Found::Otherwise(_) => Vec::new(),
+        let (attempts, not_graded): (Vec<_>, _) = match &self.graded.found {
+            Found::Attempts(all) => {
+                let all = all.iter().map(|it| (&it.attempt, &it.score));
+                (all.collect(), None)
+            }
+            Found::Otherwise(why) => (Vec::new(), Some(words.grades.otherwise(why))),
         };
         let name = format!("{stem}.report.html");
-        let page = told_page(student, &attempts, &self.graded.lesson, &words.texts);
+        let page = told_page(
+            student,
+            &attempts,
+            not_graded.as_deref(),
+            &self.graded.lesson,
+            &words.texts,
+        );
         write_over(&out.join(&name), page.as_bytes())?;
         Ok(name)
     }

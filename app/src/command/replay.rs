@@ -385,8 +385,11 @@ fn describe(done: &Replayed) -> String {
     for ((attempt, score), number) in report.attempts.iter().zip(&report.score).zip(1..) {
         let scene = in_a_line(&attempt.scene);
         let Score { points, of, .. } = score;
-        let of = count((*of).into(), "point");
-        lines.push(format!("attempt {number}, {scene}: {points} of {of}"));
+        let judged = match *of {
+            0 => "nothing was done that could be judged".to_owned(),
+            of => format!("{points} of {}", count(of.into(), "point")),
+        };
+        lines.push(format!("attempt {number}, {scene}: {judged}"));
         let caps = score.caps.iter().map(|it| done.texts.capped(it));
         lines.extend(caps.map(|it| format!("  {}", searchable(&it))));
     }

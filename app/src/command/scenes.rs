@@ -1,7 +1,6 @@
 //! `vitriol scenes`: the built-in scenes, each with what it states.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_gpu::Timestamps;
@@ -190,10 +189,8 @@ fn describe(info: &SceneInfo) -> String {
         three_digits(scene.length_scale),
     );
     for preset in &info.presets {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "  {:<10} {:>8} particles of {}, {} × {}, ω {}",
+        text += &format!(
+            "  {:<10} {:>8} particles of {}, {} × {}, ω {}\n",
             preset.preset,
             grouped(preset.fluid_particles as u64),
             with_unit(preset.d_m, length(preset.d_m)),

@@ -1,7 +1,6 @@
 //! `vitriol track`: converts keyframes, lists built-in tracks, looks into one.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -128,10 +127,8 @@ fn line(info: &TrackInfo) -> String {
 fn describe(info: &TrackInfo) -> String {
     let mut text = line(info);
     let version = in_a_line(&info.program_version);
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "seed {}, {}, recorded by version {}",
+    text += &format!(
+        "seed {}, {}, recorded by version {}\n",
         info.seed,
         count(info.switches as u64, "switch"),
         if info.program_version.is_empty() {
@@ -141,30 +138,28 @@ fn describe(info: &TrackInfo) -> String {
         }
     );
     for (name, value) in info.parameters.iter().chain(&info.outcome) {
-        let _ = writeln!(text, "  {} = {}", in_a_line(name), in_a_line(value));
+        text += &format!("  {} = {}\n", in_a_line(name), in_a_line(value));
     }
     if !info.scenes.is_empty() {
         let scenes: Vec<_> = info.scenes.iter().map(|name| in_a_line(name)).collect();
-        let _ = writeln!(text, "carries the scenes {}", scenes.join(", "));
+        text += &format!("carries the scenes {}\n", scenes.join(", "));
     }
     let builtin = Scene::builtin_names();
     if !builtin.contains(&info.scene.as_str()) && !info.scenes.contains(&info.scene) {
         let suggested = files::suggested(&info.scene, &builtin);
         let scene = in_a_line(&info.scene);
-        let _ = writeln!(
-            text,
-            "The scene {scene} is neither built in nor in the track: {suggested}; `vitriol replay --scene` names a file."
+        text += &format!(
+            "The scene {scene} is neither built in nor in the track: {suggested}; `vitriol replay --scene` names a file.\n"
         );
     }
-    let _ = match info.missing_steps {
-        0 => Ok(()),
-        1 => writeln!(text, "A step is missing."),
-        steps => writeln!(text, "{} are missing.", count(steps, "step")),
+    text += &match info.missing_steps {
+        0 => String::new(),
+        1 => "A step is missing.\n".to_owned(),
+        steps => format!("{} are missing.\n", count(steps, "step")),
     };
     if info.missing_first_steps > 0 {
-        let _ = writeln!(
-            text,
-            "It begins at step {}, so that nothing of it can be replayed: it was cut or filtered; take the whole file, or record it again.",
+        text += &format!(
+            "It begins at step {}, so that nothing of it can be replayed: it was cut or filtered; take the whole file, or record it again.\n",
             info.missing_first_steps
         );
     }

@@ -30,11 +30,13 @@ impl Report {
     }
 }
 
-/// A page on a recording that nobody replayed: words, points and lesson of its attempts, without a film.
+/// A page on a recording that nobody replayed: words, points and lesson of its attempts, without a film; or why
+/// it is not graded.
 #[cfg(feature = "class")]
 pub fn told_page(
     title: &str,
     attempts: &[(&Attempt, &Score)],
+    not_graded: Option<&str>,
     lesson: &[Verdict],
     texts: &Texts,
 ) -> String {
@@ -44,7 +46,10 @@ pub fn told_page(
                 p.kicker { (texts.report.kicker_told) }
                 h1 { (title) }
             }
-            section.happened { (words(attempts, lesson, texts, false)) }
+            section.happened {
+                (words(attempts, lesson, texts, false))
+                @if let Some(why) = not_graded { p { (why) } }
+            }
             (results(attempts, lesson, texts, false))
         }
     };
@@ -142,16 +147,22 @@ fn part(sentence: &Template, points: &str, of: u32) -> String {
     sentence.fill(&[("points", points), ("of", &of.to_string())])
 }
 
-/// Outcome of a step or a rule, in words, and why it has less than full points all the same.
-fn became(verdict: &Verdict, line: &VerdictLine, texts: &Texts) -> String {
+/// Outcome of a step or a rule, in a word.
+pub fn outcome(became: Became, texts: &Texts) -> &Template {
     let report = &texts.report;
-    let word = match line.became() {
+    match became {
         Became::Done => &report.done,
         Became::Failed => &report.failed,
         Became::Missed => &report.missed,
         Became::Kept => &report.kept,
         Became::Broken => &report.broken,
-    };
+    }
+}
+
+/// Outcome of a step or a rule, in words, and why it has less than full points all the same.
+fn became(verdict: &Verdict, line: &VerdictLine, texts: &Texts) -> String {
+    let report = &texts.report;
+    let word = outcome(line.became(), texts);
     let fewer = (line.met && line.points < line.of).then(|| match line.rule {
         true => {
             let steps = || verdict.lines.iter().filter(|it| !it.rule);

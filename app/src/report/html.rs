@@ -405,7 +405,7 @@ fn colour_class(index: usize) -> String {
 
 fn plot(title: &dyn Display, unit: &str, curves: &[Curve], texts: &Texts) -> Markup {
     let title = title.to_string();
-    let drawn = over_time(curves);
+    let drawn = over_time(curves, texts);
     html! {
         figure.plot {
             figcaption {

@@ -1,6 +1,7 @@
 //! Plots over time, as inline SVG.
 
 use plotters::prelude::*;
+use vitriol_lesson::Texts;
 use vitriol_run::page::{AXIS, CURVE_COLOURS, GRID};
 
 const WIDTH: u32 = 640;
@@ -29,9 +30,9 @@ pub struct Plot {
     pub time: (f64, f64),
 }
 
-/// Draws curves over time, zero included; `None` where there is nothing to
-/// draw.
-pub fn over_time(curves: &[Curve]) -> Option<Plot> {
+/// Draws curves over time, zero included, with numbers as these texts write
+/// them; `None` where there is nothing to draw.
+pub fn over_time(curves: &[Curve], texts: &Texts) -> Option<Plot> {
     let finite = |curve: &Curve| -> Vec<(f64, f64)> {
         let points = curve.points.iter().copied();
         points
@@ -51,7 +52,7 @@ pub fn over_time(curves: &[Curve]) -> Option<Plot> {
     let bottom = if bottom < 0.0 { bottom - room } else { 0.0 };
 
     let mut svg = String::new();
-    let span = draw(&mut svg, &curves, end, [bottom, top + room]).ok()?;
+    let span = draw(&mut svg, &curves, end, [bottom, top + room], texts).ok()?;
     Some(Plot {
         svg,
         span,
@@ -66,6 +67,7 @@ fn draw(
     curves: &[Vec<(f64, f64)>],
     end: f64,
     [bottom, top]: [f64; 2],
+    texts: &Texts,
 ) -> Result<(i32, i32), DrawError> {
     let area = SVGBackend::with_string(svg, (WIDTH, HEIGHT)).into_drawing_area();
     let mut chart = ChartBuilder::on(&area)
@@ -82,8 +84,8 @@ fn draw(
         .label_style(("sans-serif", 18))
         .x_labels(7)
         .y_labels(5)
-        .x_label_formatter(&|t| format!("{} s", trimmed(*t)))
-        .y_label_formatter(&|value| trimmed(*value))
+        .x_label_formatter(&|t| format!("{} s", texts.with_decimal(&trimmed(*t))))
+        .y_label_formatter(&|value| texts.with_decimal(&trimmed(*value)))
         .draw()?;
     for (index, points) in curves.iter().enumerate() {
         let colour = CURVE_COLOURS[index % CURVE_COLOURS.len()];
@@ -112,6 +114,8 @@ fn trimmed(value: f64) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 mod tests {
+    use vitriol_lesson::Language;
+
     use super::*;
 
     fn curve(points: &[(f64, f64)]) -> Curve {
@@ -123,7 +127,8 @@ mod tests {
 
     #[test]
     fn points_land_where_their_values_say() {
-        let plot = over_time(&[curve(&[(0.0, 0.0), (1.0, f64::NAN), (2.0, 5.0)])]).unwrap();
+        let curves = [curve(&[(0.0, 0.0), (1.0, f64::NAN), (2.0, 5.0)])];
+        let plot = over_time(&curves, &Texts::english().unwrap()).unwrap();
         let line = plot
             .svg
             .split("<polyline")
@@ -150,9 +155,25 @@ mod tests {
 
     #[test]
     fn nothing_to_draw_is_no_plot() {
-        assert!(over_time(&[]).is_none());
-        assert!(over_time(&[curve(&[])]).is_none());
-        assert!(over_time(&[curve(&[(f64::NAN, 1.0)])]).is_none());
+        let texts = Texts::english().unwrap();
+        let none = |curves: &[Curve]| over_time(curves, &texts).is_none();
+        assert!(none(&[]));
+        assert!(none(&[curve(&[])]));
+        assert!(none(&[curve(&[(f64::NAN, 1.0)])]));
+    }
+
+    /// Labels are lines of their own in the SVG; points of curves, which have commas too, are not.
+    #[test]
+    fn labels_have_the_decimal_mark_of_the_language() {
+        let curves = [curve(&[(0.0, 0.0), (1.0, 0.5)])];
+        for (language, mark, other) in [(Language::En, '.', ','), (Language::De, ',', '.')] {
+            let texts = Texts::of(language).unwrap();
+            let svg = over_time(&curves, &texts).unwrap().svg;
+            let lines = svg.lines().map(str::trim);
+            let labels: Vec<_> = lines.filter(|it| it.starts_with('0')).collect();
+            let has = |mark: char| labels.iter().any(|it| it.contains(mark));
+            assert!(has(mark) && !has(other), "{language}: {labels:?}");
+        }
     }
 
     #[test]

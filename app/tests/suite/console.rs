@@ -149,6 +149,10 @@ fn a_console_that_cannot_be_is_refused() {
             "vr --stand-in two-flasks --hub nonsense",
             "no hub's address",
         ),
+        (
+            "vr --stand-in two-flasks --hub hub.txt",
+            "there is no such file",
+        ),
         ("vr --no-console --listen 8470", "--no-console"),
     ] {
         let (code, said) = Running::start(folder.path(), line).end();

@@ -176,7 +176,9 @@ fn another_scene_is_listed_and_never_graded() {
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("nothing is graded"), "{said}");
-    assert!(said.contains("--scene"), "{said}");
+    for flag in ["--scene", "--lesson", "--preset"] {
+        assert!(said.contains(flag), "{said}");
+    }
 }
 
 /// What is there of the same track stays; a track that has changed, and what is no whole result, is made anew.
@@ -387,19 +389,23 @@ fn what_breaks_off_is_graded_when_accepted() {
 fn a_danger_caps_the_points_and_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let mut bare = events(0.0);
-    for event in &mut bare {
-        if let Event::Poured(pour) = event {
-            pour.bare_face = true;
+    let bare = |spilt_ml| {
+        let mut events = events(spilt_ml);
+        for event in &mut events {
+            if let Event::Poured(pour) = event {
+                pour.bare_face = true;
+            }
         }
-    }
-    put(here, "ada.mcap", &recording(&bare));
+        recording(&events)
+    };
+    put(here, "ada.mcap", &bare(0.0));
+    put(here, "cyd.mcap", &bare(2.0));
     put(here, "bob.mcap", &recording(&events(0.0)));
     // What macOS lays beside a file is no student's.
     fs::write(here.join("._ada.mcap"), b"Mac OS X").unwrap();
     let out = here.join("out");
     let class = read(here, &["--out", out.to_str().unwrap()]);
-    assert_eq!(class.lines.len(), 2);
+    assert_eq!(class.lines.len(), 3);
     // 60 of 100 are 51 of the 85 that can be had without heat.
     let ada = line(&class, "ada");
     assert_eq!((ada.points, ada.of), (Some(51), Some(85)));
@@ -419,6 +425,9 @@ fn a_danger_caps_the_points_and_is_named() {
     let told = VITRIOL.run(here, &format!("grade . --scene {SCENE}"));
     let told = String::from_utf8(told.stdout).unwrap();
     assert!(told.contains("51 of 85  At most 51 of 85"), "{told}");
+    // Sentences end with a stop, and words after them begin without a comma.
+    let cyd = told.lines().find(|it| it.starts_with("cyd")).unwrap();
+    assert!(cyd.ends_with(". spilt"), "{cyd}");
 }
 
 /// The class's file tells whose a recording is; a file's name that is a formula is text in a spreadsheet.

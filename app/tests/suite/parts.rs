@@ -56,7 +56,7 @@ mod long {
         assert!(one.contains(&"  \"cases\": 3,".to_owned()), "{one:?}");
 
         runs(here, "extremes --cases 7..8 --out d");
-        runs(here, "extremes --cases 5..6 --seed 2 --out e");
+        runs(here, "extremes --cases 5..5 --seed 2 --out e");
         fs::write(here.join("broken.json"), "{}").unwrap();
         VITRIOL.refuses_each(
             here,

@@ -36,7 +36,7 @@ pub use hub::{Config, Hub, HubCounts};
 pub use identity::Fingerprint;
 pub use invitation::Invitation;
 pub use picture::{Codec, EncodedPicture, JpegError, MOST_PICTURE};
-pub use port::{LeftOut, ORDERS, PICTURES, Port, Wanted};
+pub use port::{ORDERS, PICTURES, Port, Wanted};
 pub use student::{
     Choice, Coming, Controls, Flask, Frames, Incident, Kind, NAME, Points, Range, Readings,
     SENTENCE, Said, State, Step, Student,

@@ -37,15 +37,6 @@ pub struct Wanted {
     pub close_up: bool,
 }
 
-/// Numbers of items that were left out, so that no frame waits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LeftOut {
-    /// States that were replaced before the console took them, or that found the lock held.
-    pub states: u64,
-    /// Pictures that were pushed out by later ones, found the lock held, or were too big.
-    pub pictures: u64,
-}
-
 /// Orders and requests for pictures on their way to a student.
 #[derive(Debug, Default)]
 pub(crate) struct Inbox {
@@ -131,8 +122,6 @@ struct Shared {
     pictures: Mutex<VecDeque<(u64, Arc<EncodedPicture>)>>,
     /// Number of H.264 pictures that were handed in, including those that were left out.
     sequence: AtomicU64,
-    states_out: AtomicU64,
-    pictures_out: AtomicU64,
     pump: OnceLock<Thread>,
     closed: AtomicBool,
 }
@@ -167,12 +156,8 @@ pub struct Port {
 impl Port {
     /// Publishes the state of this frame, in place of the last one if the console has not taken that. Does not wait.
     pub fn publish(&self, state: State) {
-        let replaced = match self.shared.state.try_lock() {
-            Ok(mut slot) => slot.replace(state).is_some(),
-            Err(_) => true,
-        };
-        if replaced {
-            self.shared.states_out.fetch_add(1, Ordering::Relaxed);
+        if let Ok(mut slot) = self.shared.state.try_lock() {
+            *slot = Some(state);
         }
         self.shared.wake();
     }
@@ -183,27 +168,18 @@ impl Port {
             Codec::H264 => self.shared.sequence.fetch_add(1, Ordering::Relaxed),
             Codec::Jpeg | Codec::Card | Codec::CloseUp => 0,
         };
-        let out = &self.shared.pictures_out;
         if picture.bytes.len() > picture.codec.most() {
-            out.fetch_add(1, Ordering::Relaxed);
             return;
         }
-        // Freed after the lock is released.
         let mut oldest = None;
-        match self.shared.pictures.try_lock() {
-            Ok(mut queue) => {
-                if queue.len() >= PICTURES {
-                    oldest = queue.pop_front();
-                }
-                queue.push_back((number, picture));
+        if let Ok(mut queue) = self.shared.pictures.try_lock() {
+            if queue.len() >= PICTURES {
+                oldest = queue.pop_front();
             }
-            Err(_) => {
-                out.fetch_add(1, Ordering::Relaxed);
-            }
+            queue.push_back((number, picture));
         }
-        if oldest.is_some() {
-            out.fetch_add(1, Ordering::Relaxed);
-        }
+        // Freed here: the lock is released.
+        drop(oldest);
         self.shared.wake();
     }
 
@@ -234,14 +210,6 @@ impl Port {
     /// As [`Self::wants_card`], once for each request: who calls it makes the picture. Does not wait.
     pub fn take_card_request(&self) -> bool {
         self.inbox.take_card()
-    }
-
-    /// Numbers of items that were left out so far. Does not wait.
-    pub fn left_out(&self) -> LeftOut {
-        LeftOut {
-            states: self.shared.states_out.load(Ordering::Relaxed),
-            pictures: self.shared.pictures_out.load(Ordering::Relaxed),
-        }
     }
 }
 

@@ -253,11 +253,9 @@ fn sides(size: [u32; 2]) -> [u16; 2] {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::serve::{start, student};
-    use std::net::{Ipv4Addr, SocketAddr};
-    use std::time::{Duration, Instant};
+    use crate::serve::{Console, ada};
+    use std::time::Instant;
     use vitriol_console::{Heard, Watcher};
-    use vitriol_lesson::{Language, Texts};
 
     /// The longest wait. The hub asks every 4 s; a machine that is busy may take longer.
     const PATIENCE: Duration = Duration::from_secs(300);
@@ -265,10 +263,7 @@ mod tests {
     /// A page that shows the class gets a small picture for a request, though no page shows the student.
     #[test]
     fn a_card_is_coded_where_it_is_asked_for() {
-        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-        let hub = start(listen, false, Language::En).unwrap();
-        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
-        let port = hub.student(told).unwrap().unwrap();
+        let (hub, Console { port, .. }) = ada(true);
         let coder = Coder::new(&port).unwrap();
         assert!(!coder.is_wanted(Viewpoint::Student));
         let mut page = Watcher::enter(&hub, Codec::H264).unwrap();
@@ -295,11 +290,8 @@ mod tests {
     /// A page that shows the glass gets what is seen from there and not the student's view, which nobody shows then.
     #[test]
     fn a_close_up_goes_to_who_asks_for_it() {
-        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-        let hub = start(listen, false, Language::En).unwrap();
-        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
-        assert!(told.close_up);
-        let port = hub.student(told).unwrap().unwrap();
+        let (hub, Console { port, student, .. }) = ada(true);
+        assert!(student.close_up);
         let coder = Coder::new(&port).unwrap();
         assert!(!coder.is_wanted(Viewpoint::CloseUp));
         let mut page = Watcher::enter(&hub, Codec::CloseUp).unwrap();
@@ -323,10 +315,7 @@ mod tests {
     /// While one picture is coded, one from each viewpoint waits, and further ones are left out, whichever come first.
     #[test]
     fn one_picture_of_each_viewpoint_waits() {
-        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-        let hub = start(listen, false, Language::En).unwrap();
-        let told = student((Some("Ada"), &Texts::english().unwrap()), true);
-        let port = hub.student(told).unwrap().unwrap();
+        let (_hub, Console { port, .. }) = ada(true);
         let (coder, mut queue) = Coder::without_thread(&port);
         let give = |from, time_us| {
             let picture = RawPicture::Rgba(Vec::new(), [0; 2]);
@@ -354,13 +343,10 @@ mod tests {
         use super::*;
         use vitriol_console::State;
 
-        /// A page that only reads answers nothing but pings; the hub takes half a minute of silence for its end.
+        /// A page that only reads answers nothing but pings; the hub takes 30 s of silence for its end, and closes the socket at once.
         #[test]
         fn a_page_that_only_reads_is_served_on() {
-            let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-            let hub = start(listen, false, Language::En).unwrap();
-            let told = student((Some("Ada"), &Texts::english().unwrap()), true);
-            let port = hub.student(told).unwrap().unwrap();
+            let (hub, Console { port, .. }) = ada(true);
             let mut page = Watcher::enter(&hub, Codec::Jpeg).unwrap();
             let begun = Instant::now();
             for frame in 0.. {
@@ -369,7 +355,7 @@ mod tests {
                     ..State::default()
                 });
                 page.hear_state().unwrap();
-                if begun.elapsed() > Duration::from_secs(45) {
+                if begun.elapsed() > Duration::from_secs(35) {
                     break;
                 }
                 std::thread::sleep(Duration::from_millis(100));

@@ -292,10 +292,8 @@ impl Experiment for Live {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::serve::{start, student};
-    use std::net::{Ipv4Addr, SocketAddr};
+    use crate::serve::ada;
     use vitriol_console::{Codec, Hub, Watcher};
-    use vitriol_lesson::Language;
     use vitriol_sim::scene::Scene;
     use vitriol_sim::solver::Held;
 
@@ -358,14 +356,7 @@ mod tests {
 
     /// A replay of [`Switching`], and the hub that it is shown by.
     fn live() -> (Hub, Live) {
-        let listen = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), 0);
-        let hub = start(listen, false, Language::En).unwrap();
-        let told = student((Some("Ada"), &Texts::english().unwrap()), false);
-        let console = Console {
-            port: hub.student(told.clone()).unwrap().unwrap(),
-            student: told,
-            language: Language::En,
-        };
+        let (hub, console) = ada(false);
         let switching = Switching {
             scenes: SCENES.map(|name| Scene::builtin(name).unwrap()),
             at: 0,

@@ -194,7 +194,7 @@ pub fn hub_address(text: &str) -> Result<HubAddress, String> {
     if !file.is_file() {
         return text
             .parse::<HubAddress>()
-            .map_err(|error| error.to_string());
+            .map_err(|error| format!("there is no such file, and {error}"));
     }
     let line = files::read_line(file, "hub's address").map_err(|error| error.to_string())?;
     line.parse::<HubAddress>()
@@ -233,6 +233,18 @@ fn computer() -> Option<String> {
     let said = || std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = named.or_else(said)?.trim().to_owned();
     (!name.is_empty()).then_some(name)
+}
+
+/// A hub on this computer, and the console of Ada's program in it: a session, or a replay.
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+pub fn ada(is_session: bool) -> (Hub, Console) {
+    let args = ConsoleArgs {
+        name: Some("Ada".to_owned()),
+        ..ConsoleArgs::default()
+    };
+    let serving = Serving::begin(&args, Language::En, is_session).unwrap();
+    (serving.hub.unwrap(), serving.console)
 }
 
 #[cfg(test)]

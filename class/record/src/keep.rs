@@ -1,15 +1,18 @@
 //! Keeps the attempts of a sitting, in one call.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use vitriol_lesson::Attempt;
 
 use crate::lrs::{Lrs, Sent, send};
 use crate::store::{Added, Store, StoreError, without_home};
-use crate::xapi::{FILE, statements, write_lines};
+use crate::xapi::{Statement, statements};
 use crate::{Entry, Pseudonym, Score, Session};
+
+/// The name of the file of statements in a folder of results.
+const FILE: &str = "statements.jsonl";
 
 /// The attempts of a sitting that are to be kept, and where.
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +118,7 @@ pub fn keep(keeping: &Keeping<'_>) -> Result<Kept, KeepError> {
     }
     if let Some(path) = &file {
         store.add_file(keeping.pseudonym, path)?;
-        write(path, |to| write_lines(to, &all)).map_err(|source| KeepError::Write {
+        write(path, &all).map_err(|source| KeepError::Write {
             path: path.clone(),
             source,
         })?;
@@ -129,13 +132,21 @@ pub fn keep(keeping: &Keeping<'_>) -> Result<Kept, KeepError> {
     })
 }
 
-/// Writes a new file whole or not at all.
-fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+/// Writes a new file of statements, each as JSON on a line of its own: whole or not at all.
+fn write(path: &Path, statements: &[Statement]) -> io::Result<()> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
     let mut to = BufWriter::new(File::create_new(path)?);
-    let filled = fill(&mut to).and_then(|()| to.get_ref().sync_all());
+    let mut fill = || -> io::Result<()> {
+        for statement in statements {
+            serde_json::to_writer(&mut to, statement)?;
+            to.write_all(b"\n")?;
+        }
+        to.flush()?;
+        to.get_ref().sync_all()
+    };
+    let filled = fill();
     if filled.is_err() {
         // A file that cannot be removed is at least in the class's file.
         let _ = fs::remove_file(path);

@@ -22,11 +22,11 @@ use uuid::Uuid;
 pub use add::Added;
 pub use error::StoreError;
 pub(crate) use forget::without_home;
-pub use forget::{Forgotten, Left};
+pub use forget::{Forgotten, Left, SentTo};
 pub use outbox::Waiting;
-pub use read::Student;
 
 use error::In;
+use read::parsed;
 
 /// How long to wait for another program that writes. Our choice: a transaction takes milliseconds.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -62,16 +62,13 @@ impl Store {
     /// # Errors
     /// [`StoreError`].
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|source| StoreError::Folder {
+        let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        folder
+            .and_then(|()| own(path))
+            .map_err(|source| StoreError::Folder {
                 path: path.to_owned(),
                 source,
             })?;
-        }
-        own(path).map_err(|source| StoreError::Folder {
-            path: path.to_owned(),
-            source,
-        })?;
         Self::with(path, OpenFlags::SQLITE_OPEN_CREATE)
     }
 
@@ -159,7 +156,7 @@ impl Store {
             .connection
             .query_row("SELECT id FROM class", [], |row| row.get(0));
         let class: String = class.of(&path)?;
-        self.parsed(&class, "the class's identifier")
+        parsed(&path, &class, "the class's identifier")
     }
 
     /// The class's identifier, made with the file.
@@ -167,23 +164,10 @@ impl Store {
         self.class
     }
 
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// A transaction that writes: it waits for its turn here, and not half-way.
     fn change(&mut self) -> Result<Transaction<'_>, StoreError> {
         self.connection
             .transaction_with_behavior(TransactionBehavior::Immediate)
             .of(&self.path)
-    }
-
-    /// Parses a column's text; `what` names it in the error.
-    fn parsed<T: std::str::FromStr>(&self, text: &str, what: &str) -> Result<T, StoreError> {
-        text.parse().map_err(|_| StoreError::Damaged {
-            path: self.path.clone(),
-            what: what.into(),
-        })
     }
 }

@@ -3,10 +3,8 @@
 
 mod activity;
 mod incident;
-mod lines;
 mod statement;
 mod vocabulary;
 
-pub use lines::{FILE, write_lines};
 pub use statement::{Statement, statements};
 pub use vocabulary::{KEYS, Key, OURS};

@@ -73,8 +73,8 @@ fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
         .count()
 }
 
-/// Compares the pictures of every `every`th view.
-fn a_part_is_as_the_whole(every: usize) {
+/// Compares the pictures of those views.
+fn a_part_is_as_the_whole(compares: impl Fn(usize) -> bool) {
     let mut rig = Rig::new(EXTENT, 1);
     let whole = SceneDesc {
         plates: vec![PlateDesc {
@@ -108,7 +108,8 @@ fn a_part_is_as_the_whole(every: usize) {
         ("scaled", &scaled, 0.05),
     ] {
         rig.set_scene(scene);
-        for (n, view) in views().chain(along_planes()).enumerate().step_by(every) {
+        let all = views().chain(along_planes()).enumerate();
+        for (n, view) in all.filter(|(n, _)| compares(*n)) {
             assert_eq!(differ(&rig, view, scale), 0, "{name}, view {n}");
         }
     }
@@ -116,7 +117,7 @@ fn a_part_is_as_the_whole(every: usize) {
 
 #[test]
 fn a_part_of_the_room_is_drawn_as_the_whole_is() {
-    a_part_is_as_the_whole(5);
+    a_part_is_as_the_whole(|view| view.is_multiple_of(5));
 }
 
 /// Each of the lists has tiles: what a pipeline paints black is seen black.
@@ -151,8 +152,9 @@ fn each_part_is_drawn_by_its_pipeline() {
 mod long {
     use super::*;
 
+    /// The views that the quick test leaves out.
     #[test]
     fn a_part_of_the_room_is_drawn_as_the_whole_is_from_everywhere() {
-        a_part_is_as_the_whole(1);
+        a_part_is_as_the_whole(|view| !view.is_multiple_of(5));
     }
 }

@@ -59,9 +59,18 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
         let text = texts.wrong(attempt, incident);
         say(Some(incident.t_s), Tone::Bad, text, more);
     }
+    // Drops too few for a boil-over can reach skin: then what boiled did not go well, points or not.
+    let boiled_onto_skin = attempt.incidents.iter().any(|it| {
+        matches!(it.what, What::OnSkin { .. }) && matches!(it.cause, Cause::Boiling { .. })
+    });
     for line in &score.lines {
-        // The sentences of the pours state the right order themselves.
-        if line.points == line.of && line.criterion != Criterion::RightOrder {
+        let praised = match line.criterion {
+            // The sentences of the pours state the right order themselves.
+            Criterion::RightOrder => false,
+            Criterion::NothingThrownOut => !boiled_onto_skin,
+            _ => true,
+        };
+        if line.points == line.of && praised {
             for evidence in &line.evidence {
                 say(evidence.t_s, Tone::Good, evidence.text.clone(), None);
             }

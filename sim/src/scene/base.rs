@@ -85,6 +85,10 @@ fn with_base(text: &str, file: &str) -> Result<Option<Table>, SceneError> {
         let problem = format!("{base} is not built in; take one of {names}");
         return Err(Problem::new("base", problem).in_file(file));
     };
+    if let Some(key) = OWN.iter().find(|key| !own.contains_key(**key)) {
+        let problem = "is missing; a scene with a base has a name and a description of its own";
+        return Err(Problem::new(*key, problem).in_file(file));
+    }
     whole.retain(|key, _| !OWN.contains(&key));
     merge(&mut whole, own);
     Ok(Some(whole))

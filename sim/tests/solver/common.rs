@@ -38,6 +38,14 @@ pub fn single_substeps() -> Parameters {
     }
 }
 
+/// [`single_substeps`] without gravity, so that a lone particle keeps its velocity.
+pub fn weightless() -> Parameters {
+    Parameters {
+        gravity: [0.0; 3],
+        ..single_substeps()
+    }
+}
+
 /// A step of a world in which no hand is seen.
 pub const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
 

@@ -11,14 +11,6 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Particle, SolverState};
 use vitriol_tests::gpu;
 
-/// Without gravity, each substep a frame.
-fn weightless() -> Parameters {
-    Parameters {
-        gravity: [0.0; 3],
-        ..single_substeps()
-    }
-}
-
 /// `count` at rest in a ball of `radius`, m, at random.
 fn ball(random: &mut Random, count: usize, centre: DVec3, radius: f64) -> Vec<Particle> {
     (0..count)

@@ -10,14 +10,6 @@ use vitriol_sim::solver::Particle;
 use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_tests::gpu;
 
-/// Parameters under which a lone particle keeps its velocity.
-fn weightless() -> Parameters {
-    Parameters {
-        gravity: [0.0; 3],
-        ..single_substeps()
-    }
-}
-
 #[test]
 fn speed_is_limited_and_counted() {
     let device = gpu::device();

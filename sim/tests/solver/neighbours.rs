@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::kernel::Kernel;
-use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::neighbours::find_by_brute_force;
 use vitriol_sim::reference::placement::Motion;
@@ -17,14 +16,6 @@ use vitriol_tests::gpu;
 
 /// Reach of the list: support radius and margin, metres.
 const REACH: f64 = 1.05 * H;
-
-/// Nothing moves of itself.
-fn weightless() -> Parameters {
-    Parameters {
-        gravity: [0.0; 3],
-        ..single_substeps()
-    }
-}
 
 /// As [`compare_on`] one lane, and on several the same list, in the same order: sums over it repeat.
 fn compare(

@@ -238,7 +238,8 @@ fn lists_of_what_sleeps_stay_whole() {
     }
 }
 
-/// A state that is taken up while one glass sleeps and another moves goes on with the same bits, on a solver that has seen nothing.
+/// A state that is taken up while one glass sleeps and another moves goes on with the same bits, on a solver that has seen nothing, and the
+/// glasses bear the same loads.
 #[test]
 fn a_restored_sleep_goes_on_with_the_same_bits() {
     let gpu = gpu::device();
@@ -247,6 +248,7 @@ fn a_restored_sleep_goes_on_with_the_same_bits() {
     particles.extend(water(&narrow_glass(), 1, other, 300));
     let mut setup = glass(particles, 1);
     setup.flasks.push(narrow_glass());
+    setup.loads = true;
     let solver = setup.solver(&gpu);
     let pose = |x: f32| [Pose::IDENTITY, at(x, 0.0, 0.0)];
     fall_asleep(&gpu, &solver, &pose(0.3), 0);
@@ -256,14 +258,18 @@ fn a_restored_sleep_goes_on_with_the_same_bits() {
     let fresh = setup.solver(&gpu);
     fresh.restore(&state).unwrap();
     let then = |solver: &Solver| {
+        let loads = frame(&gpu, solver, &pose(0.305), &pose(0.3));
+        let loads = [0, 1].map(|flask: usize| loads[flask].impulse);
+        assert!(loads[0][1] < 0.0, "{loads:?}");
         // The sleeper is woken too.
-        frame(&gpu, solver, &pose(0.305), &pose(0.3));
         frame(&gpu, solver, &pose(0.3), &[at(0.005, 0.0, 0.0), other]);
         frames(&gpu, solver, &[at(0.005, 0.0, 0.0), other], 3);
-        solver.snapshot().unwrap()
+        let bits = loads.map(|impulse| impulse.map(f32::to_bits));
+        (solver.snapshot().unwrap(), bits)
     };
-    let [on, anew] = [&solver, &fresh].map(then);
+    let [(on, loads), (anew, same)] = [&solver, &fresh].map(then);
     assert!(on == anew);
+    assert_eq!(loads, same);
 }
 
 /// After it was woken, liquid stands as it does without sleep: its centre within a hundredth of a spacing, its surface at the wall within a
@@ -372,25 +378,6 @@ fn what_is_wiped_up_takes_none_along() {
         let falls = |slot: &usize| state.tags[*slot][0] == 0 && state.positions[*slot][1] < 0.92;
         assert_eq!((0..540).filter(falls).count(), 39, "{lanes} lanes");
     }
-}
-
-/// Loads are as heavy on a solver that takes up a state in which liquid sleeps.
-#[test]
-fn a_restored_sleep_has_the_same_loads() {
-    let gpu = gpu::device();
-    let mut setup = glass(still(), 1);
-    setup.loads = true;
-    let solver = setup.solver(&gpu);
-    fall_asleep(&gpu, &solver, &[Pose::IDENTITY], 0);
-    let fresh = setup.solver(&gpu);
-    fresh.restore(&solver.snapshot().unwrap()).unwrap();
-    let loads = |solver: &Solver| frame(&gpu, solver, &[Pose::IDENTITY], &[Pose::IDENTITY]);
-    let [on, anew] = [&solver, &fresh].map(loads);
-    assert!(on[0].impulse[1] < 0.0);
-    assert_eq!(
-        on[0].impulse.map(f32::to_bits),
-        anew[0].impulse.map(f32::to_bits)
-    );
 }
 
 /// The pass of turnovers is dormant while all sleeps, and runs for liquid that wakes up with fast eddies: the same bits as if it always ran.

@@ -1,8 +1,6 @@
 //! Results of `vitriol bench`: the time of each pass and in total, with the density error of the run beside it: a time without its error
 //! counts for nothing.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 use vitriol_run::DeviceStatement;
 use vitriol_run::passes::{PassRow, Timing};
@@ -168,12 +166,10 @@ pub fn describe(bench: &Benchmark) -> String {
         count(bench.frames.into(), "frame")
     );
     for row in &bench.rows {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
+        text += &format!(
             "\n{}: {} fluid and {} boundary particles, {} × {}\n\
              density error: mean {}, 99th percentile {}\n\
-             pass                          median ms    95 % ms dispatches         MB",
+             pass                          median ms    95 % ms dispatches         MB\n",
             row.scene,
             grouped(row.fluid_particles),
             grouped(row.solid_particles),
@@ -185,9 +181,8 @@ pub fn describe(bench: &Benchmark) -> String {
         for pass in &row.passes {
             let Timing { median_ms, p95_ms } = pass.time;
             let (name, number, megabytes) = (&pass.name, pass.dispatches, pass.bytes as f64 * 1e-6);
-            let _ = writeln!(
-                text,
-                "{name:<28} {median_ms:>10.3} {p95_ms:>10.3} {number:>10} {megabytes:>10.2}"
+            text += &format!(
+                "{name:<28} {median_ms:>10.3} {p95_ms:>10.3} {number:>10} {megabytes:>10.2}\n"
             );
         }
         let whole = [
@@ -196,22 +191,20 @@ pub fn describe(bench: &Benchmark) -> String {
             ("of it recording, submitting", row.cpu),
         ];
         for (name, Timing { median_ms, p95_ms }) in whole {
-            let _ = writeln!(text, "{name:<28} {median_ms:>10.3} {p95_ms:>10.3}");
+            text += &format!("{name:<28} {median_ms:>10.3} {p95_ms:>10.3}\n");
         }
         if let Some(Asleep { step, awake }) = row.asleep {
             let Timing { median_ms, p95_ms } = step;
             let awake = grouped(awake.into());
-            let _ = writeln!(
-                text,
-                "{:<28} {median_ms:>10.3} {p95_ms:>10.3}   ({awake} particles awake)",
+            text += &format!(
+                "{:<28} {median_ms:>10.3} {p95_ms:>10.3}   ({awake} particles awake)\n",
                 "step, queued, asleep"
             );
         }
         if let Some(paper) = &row.paper {
-            let _ = writeln!(
-                text,
+            text += &format!(
                 "{:<28} {:>10.3}   (fluid {}, boiling {}, flasks {}; {} fluid and {} solid \
-                 particles)",
+                 particles)\n",
                 "the paper",
                 paper.fluid_ms + paper.boiling_ms + paper.flasks_ms,
                 paper.fluid_ms,
@@ -238,9 +231,8 @@ pub fn describe(bench: &Benchmark) -> String {
     }
     for row in &bench.features {
         let range = format!("{:.3} {:.3}", row.range_ms[0], row.range_ms[1]);
-        let _ = writeln!(
-            text,
-            "{:<14} {:>10.3} {:>20} {:>10} {:>12}  {}",
+        text += &format!(
+            "{:<14} {:>10.3} {:>20} {:>10} {:>12}  {}\n",
             row.feature,
             row.cost_ms,
             range,
@@ -253,11 +245,9 @@ pub fn describe(bench: &Benchmark) -> String {
 }
 
 fn describe_picture(row: &RenderRow, text: &mut String) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    *text += &format!(
         "\n{}: {} fluid particles, {} × {} × {}{}\n\
-         pass                          median ms    95 % ms     number",
+         pass                          median ms    95 % ms     number\n",
         row.scene,
         grouped(row.fluid_particles),
         row.views,
@@ -274,13 +264,10 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     for pass in &row.passes {
         let Timing { median_ms, p95_ms } = pass.time;
         let (name, number) = (&pass.name, pass.dispatches);
-        let _ = writeln!(
-            text,
-            "{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}"
-        );
+        *text += &format!("{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}\n");
     }
     for (name, Timing { median_ms, p95_ms }) in named {
-        let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4}");
+        *text += &format!("{name:<28} {median_ms:>10.4} {p95_ms:>10.4}\n");
     }
 }
 

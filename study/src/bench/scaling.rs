@@ -1,7 +1,6 @@
 //! `vitriol bench --scaling`: a frame's time over the number of particles, of blocks at rest.
 
 use std::error::Error;
-use std::fmt::Write;
 use std::path::Path;
 
 use vitriol_gpu::{Gpu, GpuError};
@@ -149,10 +148,8 @@ impl Scaling {
         );
         for row in &self.rows {
             let Timing { median_ms, p95_ms } = row.total;
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{:>9} {median_ms:>11.3} {p95_ms:>9.3} {:>29.3} {:>12} {:>5}",
+            text += &format!(
+                "{:>9} {median_ms:>11.3} {p95_ms:>9.3} {:>29.3} {:>12} {:>5}\n",
                 grouped(row.fluid_particles),
                 row.particle_iteration_ns,
                 percent(row.density_error_mean),
@@ -163,14 +160,13 @@ impl Scaling {
             }
         }
         for row in &self.skipped {
-            let _ = writeln!(
-                text,
-                "{:>9} not measured: {}",
+            text += &format!(
+                "{:>9} not measured: {}\n",
                 grouped(row.fluid_particles),
                 row.reason
             );
         }
-        let _ = writeln!(text, "figure  {}", self.figure);
+        text += &format!("figure  {}\n", self.figure);
         text
     }
 }

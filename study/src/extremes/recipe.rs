@@ -1,7 +1,6 @@
 //! The scenes that cases start from, and their parameters that an extreme changes.
 
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 use vitriol_sim::surface_tension::WATER;
 
@@ -191,14 +190,11 @@ impl Recipe {
 
     /// Text of the scene's file.
     pub fn text(&self) -> String {
-        let mut t = String::new();
         let d = self.spacing;
         let model = self.model();
         let relaxation = ["jacobi", "chebyshev"][usize::from(self.chebyshev)];
         let walls = ["map", "particles"][usize::from(self.boundary_particles)];
-        // Writing to a string cannot fail.
-        let _ = write!(
-            t,
+        let mut t = format!(
             "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = {model:?}\n\
              origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
@@ -223,22 +219,20 @@ impl Recipe {
         let angle = match self.surface() {
             None => String::new(),
             Some([tension, angle]) => {
-                let _ = writeln!(t, "surface_tension = {tension:?}");
+                t += &format!("surface_tension = {tension:?}\n");
                 format!("contact_angle = {angle:?}\n")
             }
         };
         let [d_t, d_c] = self.diffusivities();
-        let _ = match self.base {
-            Base::Water => Ok(()),
-            Base::Paper => write!(
-                t,
+        t += &match self.base {
+            Base::Water => String::new(),
+            Base::Paper => format!(
                 "[paper]\nT_a = 20.0\nT_B = {:?}\nk_d = 0.017\nk_v = {:?}\nD_T = {d_t:?}\n\
                  D_c = {d_c:?}\n",
                 self.boiling_point, self.k_v
             ),
             // Liquid that boils more strongly has more nuclei.
-            Base::Physical => write!(
-                t,
+            Base::Physical => format!(
                 "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\nlamella = 0.0003\n\
                  nuclei_spacing = {:?}\nmost_bubbles = 4096\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
@@ -251,8 +245,7 @@ impl Recipe {
         let (height, radius) = (self.height * d, self.radius * d);
         // The table is wider than any flask here.
         let side = (2.0 * (self.radius + 60.0)) * d;
-        let _ = write!(
-            t,
+        t += &format!(
             "[table]\ntop = {:?}\ncentre = [{x:?}, {z:?}]\nsize = [{side:?}, {side:?}]\n\
              [floor]\nheight = {y:?}\n\
              [[flask]]\nname = \"glass\"\npoints = [[0.0, {radius:?}], [{height:?}, {radius:?}]]\n\
@@ -272,8 +265,7 @@ impl Recipe {
             [0.98, 0.0]
         };
         for ((amount, temperature), acid) in halves.iter().zip(self.temperatures).zip(acids) {
-            let _ = write!(
-                t,
+            t += &format!(
                 "[[liquid]]\nflask = \"glass\"\n{amount}\ntemperature = {temperature:?}\n\
                  acid_fraction = {acid:?}\n"
             );

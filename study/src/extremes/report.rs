@@ -1,7 +1,6 @@
 //! The report of `vitriol extremes` over all cases.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -83,52 +82,97 @@ pub struct Worst {
     pub drifts: [f64; 3],
 }
 
+impl Extremes {
+    /// The report of one case.
+    fn of(finding: &Finding) -> Self {
+        let mut one = Self {
+            cases: 1,
+            worst: Worst {
+                speed_over_max: finding.speed_over_max,
+                energy_excess: finding.energy_excess,
+                settling: finding.settling,
+                drifts: finding.drifts,
+            },
+            ..Self::default()
+        };
+        let mut limited = 0;
+        match &finding.verdict {
+            Verdict::Passed => {
+                one.passed = 1;
+                limited = usize::from(!finding.limiters.is_empty());
+            }
+            Verdict::Refused { message } => {
+                one.refused = 1;
+                one.refusals.insert(field(message), 1);
+            }
+            Verdict::Failed { .. } => {
+                one.failed = 1;
+                one.failures.push(finding.clone());
+            }
+        }
+        let kind = Kind {
+            cases: 1,
+            passed: one.passed,
+            refused: one.refused,
+            failed: one.failed,
+            limited,
+        };
+        one.kinds = (finding.kinds.iter())
+            .map(|name| (name.to_string(), kind))
+            .collect();
+        let limiters = finding.limiters.iter().map(|(name, &times)| {
+            let times = times.into();
+            (name.to_string(), Acted { cases: 1, times })
+        });
+        one.limiters = limiters.collect();
+        one
+    }
+
+    /// Adds the cases of another report.
+    fn add(&mut self, part: Self) {
+        self.cases += part.cases;
+        self.passed += part.passed;
+        self.refused += part.refused;
+        self.failed += part.failed;
+        self.seconds += part.seconds;
+        self.failures.extend(part.failures);
+        for (name, acted) in part.limiters {
+            let sum = self.limiters.entry(name).or_default();
+            sum.cases += acted.cases;
+            sum.times += acted.times;
+        }
+        for (name, kind) in part.kinds {
+            let sum = self.kinds.entry(name).or_default();
+            sum.cases += kind.cases;
+            sum.passed += kind.passed;
+            sum.refused += kind.refused;
+            sum.failed += kind.failed;
+            sum.limited += kind.limited;
+        }
+        for (field, cases) in part.refusals {
+            *self.refusals.entry(field).or_default() += cases;
+        }
+        let worst = &mut self.worst;
+        worst.speed_over_max = worst.speed_over_max.max(part.worst.speed_over_max);
+        worst.energy_excess = worst.energy_excess.max(part.worst.energy_excess);
+        worst.settling = worst.settling.max(part.worst.settling);
+        for (worst, drift) in worst.drifts.iter_mut().zip(part.worst.drifts) {
+            *worst = worst.max(drift);
+        }
+    }
+}
+
 /// Summarises findings.
 pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f64) -> Extremes {
     let mut all = Extremes {
         device,
         seed,
         first: found.first().map_or(0, |finding| finding.case),
-        cases: found.len(),
         seconds,
         ..Extremes::default()
     };
     for finding in found {
-        for name in &finding.kinds {
-            let kind = all.kinds.entry(name.to_string()).or_default();
-            kind.cases += 1;
-            match &finding.verdict {
-                Verdict::Passed => {
-                    kind.passed += 1;
-                    kind.limited += usize::from(!finding.limiters.is_empty());
-                }
-                Verdict::Refused { .. } => kind.refused += 1,
-                Verdict::Failed { .. } => kind.failed += 1,
-            }
-        }
-        match &finding.verdict {
-            Verdict::Passed => all.passed += 1,
-            Verdict::Refused { message } => {
-                all.refused += 1;
-                *all.refusals.entry(field(message)).or_default() += 1;
-            }
-            Verdict::Failed { .. } => {
-                all.failed += 1;
-                all.failures.push(finding.clone());
-            }
-        }
-        for (name, &times) in &finding.limiters {
-            let acted = all.limiters.entry(name.to_string()).or_default();
-            acted.cases += 1;
-            acted.times += u64::from(times);
-        }
-        let worst = &mut all.worst;
-        worst.speed_over_max = worst.speed_over_max.max(finding.speed_over_max);
-        worst.energy_excess = worst.energy_excess.max(finding.energy_excess);
-        worst.settling = worst.settling.max(finding.settling);
-        for (worst, drift) in worst.drifts.iter_mut().zip(finding.drifts) {
-            *worst = worst.max(drift);
-        }
+        all.add(Extremes::of(finding));
     }
     all
 }
@@ -151,35 +195,7 @@ pub fn merge(mut parts: Vec<(PathBuf, Extremes)>) -> Result<Extremes, MergeError
         ..Extremes::default()
     };
     for part in parts {
-        all.cases += part.cases;
-        all.passed += part.passed;
-        all.refused += part.refused;
-        all.failed += part.failed;
-        all.seconds += part.seconds;
-        all.failures.extend(part.failures);
-        for (name, acted) in part.limiters {
-            let sum = all.limiters.entry(name).or_default();
-            sum.cases += acted.cases;
-            sum.times += acted.times;
-        }
-        for (name, kind) in part.kinds {
-            let sum = all.kinds.entry(name).or_default();
-            sum.cases += kind.cases;
-            sum.passed += kind.passed;
-            sum.refused += kind.refused;
-            sum.failed += kind.failed;
-            sum.limited += kind.limited;
-        }
-        for (field, cases) in part.refusals {
-            *all.refusals.entry(field).or_default() += cases;
-        }
-        let worst = &mut all.worst;
-        worst.speed_over_max = worst.speed_over_max.max(part.worst.speed_over_max);
-        worst.energy_excess = worst.energy_excess.max(part.worst.energy_excess);
-        worst.settling = worst.settling.max(part.worst.settling);
-        for (worst, drift) in worst.drifts.iter_mut().zip(part.worst.drifts) {
-            *worst = worst.max(drift);
-        }
+        all.add(part);
     }
     Ok(all)
 }
@@ -205,25 +221,22 @@ pub fn describe(all: &Extremes) -> String {
         all.seconds
     );
     for (name, kind) in &all.kinds {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{name:<28} {:>6} {:>7} {:>8} {:>8} {:>7}",
+        text += &format!(
+            "{name:<28} {:>6} {:>7} {:>8} {:>8} {:>7}\n",
             kind.cases, kind.passed, kind.limited, kind.refused, kind.failed
         );
     }
-    let _ = writeln!(text, "\n{:<44} {:>6} {:>12}", "limiter", "cases", "times");
+    text += &format!("\n{:<44} {:>6} {:>12}\n", "limiter", "cases", "times");
     for (name, acted) in &all.limiters {
-        let _ = writeln!(text, "{name:<44} {:>6} {:>12}", acted.cases, acted.times);
+        text += &format!("{name:<44} {:>6} {:>12}\n", acted.cases, acted.times);
     }
-    let _ = writeln!(text, "\n{:<44} {:>6}", "refused at load", "cases");
+    text += &format!("\n{:<44} {:>6}\n", "refused at load", "cases");
     for (name, cases) in &all.refusals {
-        let _ = writeln!(text, "{name:<44} {cases:>6}");
+        text += &format!("{name:<44} {cases:>6}\n");
     }
-    let _ = writeln!(
-        text,
+    text += &format!(
         "\nworst: speed {:.6} of v_max, energy {:.4} of what was turned over, acid {:.1e}, mass \
-         {:.1e}, enthalpy {:.1e}",
+         {:.1e}, enthalpy {:.1e}\n",
         all.worst.speed_over_max,
         all.worst.energy_excess,
         all.worst.drifts[0],
@@ -232,9 +245,8 @@ pub fn describe(all: &Extremes) -> String {
     );
     for finding in &all.failures {
         if let Verdict::Failed { reasons } = &finding.verdict {
-            let _ = writeln!(
-                text,
-                "\nFAILED {} (--seed {} --only {}): {}",
+            text += &format!(
+                "\nFAILED {} (--seed {} --only {}): {}\n",
                 finding.label,
                 all.seed,
                 finding.case,

@@ -1,7 +1,5 @@
 //! Results of `vitriol fidelity`.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 use vitriol_run::DeviceStatement;
 use vitriol_run::units::grouped;
@@ -166,10 +164,8 @@ pub fn rows(pictures: &[Picture]) -> Vec<DrawnRow> {
 pub fn describe(found: &Fidelity) -> String {
     let mut text = format!("{}, {}\n", found.device.name, found.device.driver);
     for state in &found.states {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{}: {} after {} s, {} particles of {:.2} mm, {:.1} mL",
+        text += &format!(
+            "{}: {} after {} s, {} particles of {:.2} mm, {:.1} mL\n",
             state.state,
             state.scene,
             state.seconds,
@@ -184,9 +180,8 @@ pub fn describe(found: &Fidelity) -> String {
     );
     for row in &found.rows {
         let f = &row.figures;
-        let _ = writeln!(
-            text,
-            "{:<11} {:<15} {:<5} {:>6} {:>5.0}% {:>6.3} {:>7.3} {:>7.3} {:>6.1}° {:>8.3} {:>8.3} {:>6.1}° {:>6.3}",
+        text += &format!(
+            "{:<11} {:<15} {:<5} {:>6} {:>5.0}% {:>6.3} {:>7.3} {:>7.3} {:>6.1}° {:>8.3} {:>8.3} {:>6.1}° {:>6.3}\n",
             format!("{}×{}", row.size[0], row.size[1]),
             row.manner.filter,
             if row.manner.anisotropy { "yes" } else { "no" },
@@ -202,10 +197,9 @@ pub fn describe(found: &Fidelity) -> String {
             f.volume_ratio
         );
     }
-    let _ = writeln!(
-        text,
+    text += &format!(
         "\nIoU and volume: the worst view; the rest: over all of them. Depth, reprojection and \
-         flicker: rms in particle radii, at least `margin` pixels from silhouettes.\n{:.0} s",
+         flicker: rms in particle radii, at least `margin` pixels from silhouettes.\n{:.0} s\n",
         found.seconds
     );
     text

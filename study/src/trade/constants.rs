@@ -1,8 +1,6 @@
 //! The constants of the physical chemistry that come from no table, in scenes and in shaders, and the effect of halving and doubling
 //! each.
 
-use std::fmt::Write;
-
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use vitriol_shaders::{Library, ShaderError};
@@ -180,10 +178,8 @@ pub fn describe(changes: &[Change]) -> String {
         });
         let median = |of: &super::boil::Quartiles| of.0[1];
         let seeds = &change.seeds;
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            t,
-            "{key:<18} {:>7.2} {:>9.3e}  {:>9.3} {:>9.3} {:>9.1} {:>9.1}  {}{source}",
+        t += &format!(
+            "{key:<18} {:>7.2} {:>9.3e}  {:>9.3} {:>9.3} {:>9.1} {:>9.1}  {}{source}\n",
             change.times,
             change.value * change.times,
             median(&seeds.thrown),

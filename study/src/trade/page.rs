@@ -75,6 +75,18 @@ fn head(names: &[&str]) -> Markup {
     html! { thead { tr { @for name in names { th scope="col" { (name) } } } } }
 }
 
+/// A point's errors: the six columns that both tables have.
+fn errors(point: &Point) -> Markup {
+    html! {
+        td { (percent(point.errors.rest_p99)) }
+        td { (percent(point.rest.density_signed)) }
+        td { (point.rest.pressure.map_or("not carried".into(), percent)) }
+        td { (percent(point.errors.pour_p99)) }
+        td { (percent(point.errors.poured)) }
+        td { (percent(point.errors.lost_volume)) }
+    }
+}
+
 fn presets(trade: &Trade) -> Markup {
     let rows = trade
         .points
@@ -89,12 +101,7 @@ fn presets(trade: &Trade) -> Markup {
                 th scope="row" { (point.preset) }
                 td { (point.setting.label()) }
                 td { (three_digits(point.rest.cost.median_ms)) " and " (three_digits(point.cost())) " ms" }
-                td { (percent(point.errors.rest_p99)) }
-                td { (percent(point.rest.density_signed)) }
-                td { (point.rest.pressure.map_or("not carried".into(), percent)) }
-                td { (percent(point.errors.pour_p99)) }
-                td { (percent(point.errors.poured)) }
-                td { (percent(point.errors.lost_volume)) }
+                (errors(point))
                 td { (worst_heat(trade, &point.preset)) }
             }
         } }
@@ -145,12 +152,7 @@ fn settings(trade: &Trade) -> Markup {
                 td { (point.setting.label()) }
                 td { (grouped(point.rest.particles.into())) }
                 td { (three_digits(point.cost())) }
-                td { (percent(point.errors.rest_p99)) }
-                td { (percent(point.rest.density_signed)) }
-                td { (point.rest.pressure.map_or("not carried".into(), percent)) }
-                td { (percent(point.errors.pour_p99)) }
-                td { (percent(point.errors.poured)) }
-                td { (percent(point.errors.lost_volume)) }
+                (errors(point))
                 td { (three_digits(point.stiffness)) }
             }
         } }

@@ -1,6 +1,5 @@
 //! Results of `vitriol trade`.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -176,10 +175,8 @@ pub fn describe(trade: &Trade) -> String {
     );
     for point in &trade.points {
         let e = &point.errors;
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            t,
-            "{:<10} {:<22} {:<52} {:>8} {:>8.3} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8.2}",
+        t += &format!(
+            "{:<10} {:<22} {:<52} {:>8} {:>8.3} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8.2}\n",
             point.preset,
             point.knob.name(),
             point.setting.label(),
@@ -195,9 +192,8 @@ pub fn describe(trade: &Trade) -> String {
         );
     }
     if let Some((setting, tipped)) = &trade.finest {
-        let _ = writeln!(
-            t,
-            "finest: {}, {:.2} mL poured, {:.2} mL in the end by geometry",
+        t += &format!(
+            "finest: {}, {:.2} mL poured, {:.2} mL in the end by geometry\n",
             setting.label(),
             1e6 * tipped.poured,
             1e6 * tipped.in_the_end
@@ -206,9 +202,8 @@ pub fn describe(trade: &Trade) -> String {
     for row in &trade.calorimetry {
         let [water, acid] = row.millilitres;
         let [own, table] = row.temperature;
-        let _ = writeln!(
-            t,
-            "calorimeter, {}: {water} and {acid} mL end at {own:.2} °C, the table's {table:.1}",
+        t += &format!(
+            "calorimeter, {}: {water} and {acid} mL end at {own:.2} °C, the table's {table:.1}\n",
             row.preset
         );
     }
@@ -216,9 +211,8 @@ pub fn describe(trade: &Trade) -> String {
         let show = |Quartiles([low, middle, high]): &Quartiles| {
             format!("{middle:.3} ({low:.3} to {high:.3})")
         };
-        let _ = writeln!(
-            t,
-            "{}, {} seeds: superheat {} K, onset {} s, thrown {} g, steam {} g, mean {} °C",
+        t += &format!(
+            "{}, {} seeds: superheat {} K, onset {} s, thrown {} g, steam {} g, mean {} °C\n",
             seeds.name,
             seeds.seeds.len(),
             show(&seeds.superheat),
@@ -232,10 +226,9 @@ pub fn describe(trade: &Trade) -> String {
         t += &super::constants::describe(&trade.constants);
     }
     if let Some(v) = &trade.vouched {
-        let _ = writeln!(
-            t,
+        t += &format!(
             "f64 and device, {} particles after {} s: density error p99 {} and {}, centre of mass \
-             {:.4} and {:.4} mm, at most {:.4} mm apart",
+             {:.4} and {:.4} mm, at most {:.4} mm apart\n",
             v.particles,
             v.seconds,
             percent(v.density_p99[0]),
@@ -246,10 +239,9 @@ pub fn describe(trade: &Trade) -> String {
         );
     }
     for effect in &trade.effects {
-        let _ = writeln!(
-            t,
+        t += &format!(
             "{}: {:.3} mL poured; density error p99 {} at rest, {} while pouring; rms speed at \
-             rest {:.4} m/s; a frame {:.3} ms",
+             rest {:.4} m/s; a frame {:.3} ms\n",
             effect.name,
             1e6 * effect.pour.poured,
             percent(effect.rest.density_p99),
@@ -260,20 +252,19 @@ pub fn describe(trade: &Trade) -> String {
     }
     for found in &trade.orders {
         let (name, by, order) = (&found.name, &found.by, found.order);
-        let _ = writeln!(t, "{name} over {by}: order {order:.2}");
+        t += &format!("{name} over {by}: order {order:.2}\n");
     }
     if trade.skipped > 0 {
-        let _ = writeln!(
-            t,
-            "not tried for want of time: {}",
+        t += &format!(
+            "not tried for want of time: {}\n",
             count(trade.skipped as u64, "setting")
         );
     }
     let [first, end] = trade.cases;
     if end - first < trade.of {
-        let _ = writeln!(t, "cases {first}..{end} of {}", trade.of);
+        t += &format!("cases {first}..{end} of {}\n", trade.of);
     }
-    let _ = writeln!(t, "{:.0} s", trade.seconds);
+    t += &format!("{:.0} s\n", trade.seconds);
     t
 }
 

@@ -336,7 +336,7 @@ impl<'a> Reading<'a> {
         self.partial = self.partial.take().filter(|it| !recovered || is_whole(it));
         self.end_frame()?;
         if recovered && self.track.frames.is_empty() {
-            return Err(self.damaged("it is empty, or broke off before its first frame"));
+            return Err(self.damaged("it is empty or broke off"));
         }
         self.topics()?;
         let Some(mut metadata) = self.metadata.take() else {

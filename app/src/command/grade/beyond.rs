@@ -6,6 +6,7 @@ use vitriol_lesson::{Skin, Surface, What};
 use vitriol_run::in_a_line;
 
 use super::wrong::Words;
+use crate::report::outcome;
 
 /// A difference. Of two values the first is in the recording, and the second was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -194,22 +195,13 @@ impl Place {
 
 impl Values {
     fn told(&self, words: &Words) -> [String; 2] {
-        let (at, report) = (&words.grades.verified.at, &words.texts.report);
+        let at = &words.grades.verified.at;
         match self {
             Self::Volumes(both) => both.map(|it| format!("{} mL", two_decimals(1e6 * it, words))),
             Self::Counts(both) => both.map(|it| it.to_string()),
             Self::Moments(both) => both.map(|it| at.fill(&[("seconds", &two_decimals(it, words))])),
             Self::Points(both) => both.map(|it| it.to_string()),
-            Self::Outcomes(both) => both.map(|it| {
-                let word = match it {
-                    Became::Done => &report.done,
-                    Became::Failed => &report.failed,
-                    Became::Missed => &report.missed,
-                    Became::Kept => &report.kept,
-                    Became::Broken => &report.broken,
-                };
-                word.to_string()
-            }),
+            Self::Outcomes(both) => both.map(|it| outcome(it, &words.texts).to_string()),
         }
     }
 }

@@ -257,7 +257,7 @@ pub fn text(class: &Class, words: &Words) -> String {
             line.verified
                 .map_or("", |it| it.said(&texts.verified))
                 .to_owned(),
-            notes.join(", "),
+            in_one(&notes),
         ]);
     }
     let mut widths = [0; 5];
@@ -297,6 +297,21 @@ pub fn text(class: &Class, words: &Words) -> String {
         text += &format!("{file}\n");
     }
     text
+}
+
+/// Sentences and words in one line: a comma stands after words alone.
+fn in_one(notes: &[String]) -> String {
+    let mut line = String::new();
+    for note in notes {
+        let between = match line.chars().next_back() {
+            None => "",
+            Some('.' | '。') => " ",
+            Some(_) => ", ",
+        };
+        line += between;
+        line += note;
+    }
+    line
 }
 
 /// Columns of a terminal that a text takes: Chinese letters and full-width marks have two.

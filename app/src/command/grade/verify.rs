@@ -98,15 +98,7 @@ impl Verified {
         let (events, progress) = (recorded_events(&track), recorded_progress(&track));
         let metadata = track.metadata.clone();
         let plan = ReplayPlan::of(&ask, track)?;
-        let mut experiment = prepare(&Setup {
-            device: args.device.as_deref(),
-            ..Setup::without_pictures(
-                &plan.scene,
-                (&plan.name, &plan.scenes),
-                plan.preset,
-                plan.seed,
-            )
-        })?;
+        let mut experiment = prepare(&plan.setup(args.device.as_deref()))?;
         if let Some((lesson, mode)) = &expected.lesson {
             let text = plan.scenes.text(&plan.name);
             let scene = (plan.name.as_str(), text.as_deref());

@@ -2,7 +2,6 @@
 //! happens.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_lesson::procedure::Verdict;
@@ -12,7 +11,6 @@ use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Setup, Subtitles, emit, escaped, in_a_line, output,
 };
-use vitriol_shaders::Library;
 use vitriol_xr::track::{TrackMetadata, TrackSource, builtin, load};
 
 use super::subtitles::{JudgedTrack, SubtitleWords, cues};
@@ -72,24 +70,12 @@ pub fn make(
         tracing::warn!("{}: {other}", escaped(&track));
     }
     let mut experiment = prepare(&Setup {
-        scene: &plan.scene,
-        scene_name: &plan.name,
-        scenes: &plan.scenes,
-        preset: plan.preset,
-        seed: plan.seed,
-        device: args.device.as_deref(),
         picture: Some(FILM_SIZE),
         colours: vec![Colour::Liquid],
-        eyes: 1,
-        filter: None,
-        tint: None,
-        room: None,
         // A lesson is seen as the student sees it, in full.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
-        directed: false,
-        look: None,
         language: args.language,
-        shaders: Arc::new(Library::embedded()),
+        ..plan.setup(args.device.as_deref())
     })?;
     let text = plan.scenes.text(&plan.name);
     let scene = (plan.name.as_str(), text.as_deref());

@@ -1,6 +1,5 @@
 //! The report on a session at its end, as a document and in words.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -142,10 +141,8 @@ fn governed(governor: &GovernorReport) -> String {
             true => ", fewer pixels aside",
             false => "",
         };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "  solver {substeps} × {iterations}, picture {picture:.0} %{aside}, filter {}: {}",
+        text += &format!(
+            "  solver {substeps} × {iterations}, picture {picture:.0} %{aside}, filter {}: {}\n",
             setting.filter.name(),
             count(*frames, "frame")
         );
@@ -216,10 +213,8 @@ pub fn describe(session: &SessionReport) -> String {
     text += "                                median      95 %      99 %    99.9 %      most\n";
     for (name, spread) in rows {
         if let Some(it) = spread {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{name:<28} {:>9.3} {:>9.3} {:>9.3} {:>9.3} {:>9.3}",
+            text += &format!(
+                "{name:<28} {:>9.3} {:>9.3} {:>9.3} {:>9.3} {:>9.3}\n",
                 it.p50, it.p95, it.p99, it.p999, it.max
             );
         }
@@ -229,9 +224,8 @@ pub fn describe(session: &SessionReport) -> String {
         ("while one builds", session.frames_while_building),
     ] {
         if let Some(it) = frames {
-            let _ = writeln!(
-                text,
-                "{} {kind}: waited for the queue {}, for memory {}",
+            text += &format!(
+                "{} {kind}: waited for the queue {}, for memory {}\n",
                 count(it.frames, "frame"),
                 waited(&it.queue_lock),
                 waited(&it.memory_lock)
@@ -239,26 +233,23 @@ pub fn describe(session: &SessionReport) -> String {
         }
     }
     if let (Some(period), Some(ready)) = (session.period_ms, session.ready_ms) {
-        let _ = writeln!(
-            text,
-            "left of {period:.2} ms: {:.2} ms in the 99th percentile",
+        text += &format!(
+            "left of {period:.2} ms: {:.2} ms in the 99th percentile\n",
             period - ready.p99
         );
     }
     let sound = &outcome.sound;
-    let _ = match (&sound.buffered_ms, &sound.cause) {
-        (Some(held), None) => writeln!(
-            text,
-            "sound: {held:.1} ms buffered, ran dry {}",
+    text += &match (&sound.buffered_ms, &sound.cause) {
+        (Some(held), None) => format!(
+            "sound: {held:.1} ms buffered, ran dry {}\n",
             count(sound.underflows, "time")
         ),
-        (_, Some(cause)) => writeln!(text, "no sound: {cause}"),
-        (None, None) => Ok(()),
+        (_, Some(cause)) => format!("no sound: {cause}\n"),
+        (None, None) => String::new(),
     };
     if let Some([before, after]) = session.holdings {
-        let _ = writeln!(
-            text,
-            "memory {} to {} MB, {} to {} handles",
+        text += &format!(
+            "memory {} to {} MB, {} to {} handles\n",
             before.memory / 1_000_000,
             after.memory / 1_000_000,
             before.handles,
@@ -269,21 +260,20 @@ pub fn describe(session: &SessionReport) -> String {
         let steps = count(recording.steps, "step");
         let cause = recording.cause.as_ref();
         let cause = cause.map_or_else(String::new, |cause| format!(": {cause}"));
-        let _ = match recording.unwritten {
-            0 => writeln!(text, "recorded whole, {steps}{cause}"),
-            lost => writeln!(text, "recorded {steps}; {lost} could not be written{cause}"),
+        text += &match recording.unwritten {
+            0 => format!("recorded whole, {steps}{cause}\n"),
+            lost => format!("recorded {steps}; {lost} could not be written{cause}\n"),
         };
     }
     if let Some(verdict) = &outcome.verdict {
-        let _ = writeln!(
-            text,
-            "lesson {}: {} of {}",
+        text += &format!(
+            "lesson {}: {} of {}\n",
             verdict.lesson,
             verdict.points,
             count(verdict.of.into(), "point")
         );
     }
-    let _ = write!(text, "state {}", session.state_hash);
+    text += &format!("state {}", session.state_hash);
     text
 }
 

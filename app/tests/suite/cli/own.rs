@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use vitriol_sim::scene::{Liquid, Scene};
+
 use super::{VITRIOL, text};
 
 /// The indented block of a page that begins with that line.
@@ -173,6 +175,23 @@ fn what_is_no_text_is_refused_in_the_language_of_the_call() {
             "{said}"
         );
     }
+}
+
+/// Its volumes, at real size, and strengths are those that the page says.
+#[test]
+fn the_scene_of_the_page_is_good() {
+    let text = example("write-a-lesson.md", "base = \"acid-into-water\"");
+    let scene = Scene::parse(&text, "more-acid.toml").unwrap();
+    let base = Scene::builtin("acid-into-water").unwrap();
+    assert_eq!(scene.name, "more-acid");
+    assert_eq!(scene.flasks.len(), base.flasks.len());
+    let ml = |it: &Liquid| (it.volume * 1e6).round();
+    let volumes: Vec<f64> = scene.liquids.iter().map(ml).collect();
+    assert_eq!(volumes, [40.0, 160.0]);
+    // Without the second list entry the beaker is empty, and not as in the base.
+    let (one, _) = text.rsplit_once("[[liquid]]").unwrap();
+    let one = Scene::parse(one, "one.toml").unwrap();
+    assert_eq!((one.liquids.len(), base.liquids.len()), (1, 2));
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::desk::common::{
     By, Sat, Script, at_screen, points, puts_down, sat, session_at, spec, stands, takes,
 };
+use crate::desk::hold::raises_and_lowers_by_keys;
 use crate::desk::seen::{SOURCE, Seen, TARGET, level};
 use crate::vr::common::hash;
 use crate::vr::loss::replayed;
@@ -37,7 +38,7 @@ fn carries_aside(script: Script) -> Script {
 }
 
 /// Both flasks stand, nothing was spilt, and a replay comes to the same bits.
-fn is_whole(gpu: &Gpu, sat: Sat) {
+pub fn is_whole(gpu: &Gpu, sat: Sat) {
     assert_eq!(sat.ended_in, None);
     let world = &sat.outcome.world;
     let measured = world.measure().unwrap();
@@ -204,10 +205,12 @@ fn steadies(script: Script) -> Script {
 mod long {
     use super::*;
 
+    /// And what is held still goes up and down by keys.
     #[test]
     fn a_window_may_change_its_size_while_a_flask_is_dragged() {
         let name = "desk::taken::long::a_window_may_change_its_size_while_a_flask_is_dragged";
         let script = resized_in_mid_drag(carries_aside(takes(points(Script::default()))));
+        let script = raises_and_lowers_by_keys(script);
         if let Some((gpu, sat)) = sat(name, By::Mouse, |_, _| puts_down(script)) {
             is_whole(&gpu, sat);
         }

@@ -146,6 +146,9 @@ fn a_class_is_graded_by_its_lesson() {
             "{}",
             line.note
         );
+        // The page that the row links says it too.
+        let page = fs::read_to_string(out.join(format!("{student}.report.html"))).unwrap();
+        assert!(page.contains(part), "{student}: {page}");
     }
     // 25 of 25, and half of 15 at the second try: 32 of 70, and as much of 10, 10 and 5 for three rules that were kept.
     let english = Texts::english().unwrap();

@@ -108,6 +108,18 @@ fn a_class_of_folders_and_scenes_is_graded_in_one_call() {
     // Where nothing is graded, the class fails without it.
     let none = VITRIOL.run(here, "grade class/Cut class/Empty");
     assert_eq!(none.status.code(), Some(2));
+    // A bad file beside recordings that are not graded is not the cause, unless it is asked for.
+    let line = "grade class/Cut class/Ada --scene beaker";
+    for (line, cause) in [
+        (line.to_owned(), "nothing is graded"),
+        (format!("{line} --strict"), "pour.mcap"),
+    ] {
+        let output = VITRIOL.run(here, &line);
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8(output.stderr).unwrap();
+        let last = said.lines().last().unwrap();
+        assert!(last.contains(cause), "{said}");
+    }
 }
 
 /// Why a file is passed over, not read or not graded is said in the teacher's language, also of a result that an earlier call left.

@@ -97,6 +97,10 @@ pub trait Trouble {
     fn acquires(&mut self, _after: u64) {}
     /// See [`Trouble::acquires`].
     fn ends(&mut self, _after: u64) {}
+    /// Whether a frame has a picture. A test that looks at few of them saves the time of the others, for which the headset has no images.
+    fn draws(&self, _after: u64) -> bool {
+        true
+    }
     /// Whether something has still to come after so many frames: until it does, frames do not count.
     fn awaits(&self, _after: u64) -> bool {
         false
@@ -275,6 +279,9 @@ impl<T: Trouble> Headset for Worn<T> {
     }
     fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
         self.trouble.acquires(self.after - 1);
+        if !self.trouble.draws(self.after - 1) {
+            return Ok(None);
+        }
         let mut targets = self.inner.acquire(panel)?;
         if let (Some(targets), Some((_, inset))) = (&mut targets, &self.inset) {
             targets.inset = Some(inset.clone());

@@ -1,39 +1,70 @@
 //! The picture is dark where the world leaps: the head's place is lost and found, a scene follows another.
 
+use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, channel};
 
-use vitriol_gpu::Gpu;
 use vitriol_session::decision::Decision;
+use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
-use vitriol_xr::HeadsetFrame;
-use vitriol_xr::track::Track;
+use vitriol_xr::{Headset, HeadsetFrame, Turn};
 
 use crate::vr::common::{StartsOver, Trouble, Worn, hash, nobody, pour, session};
 use crate::vr::loss::replayed;
 use crate::vr::seen::read;
 
-/// What a session ended with: mean level of the last frame's picture, 0 to 255, whether the panel had its own layer then, the recording
-/// and the state's hash.
-struct Ended {
-    level: f64,
-    layer: bool,
-    track: Track,
-    hash: u64,
+/// Measures how light the eyes' pictures are after so many frames.
+struct Light<T> {
+    trouble: T,
+    at: Vec<u64>,
+    /// By the number of frames, the mean level, 0 to 255. Where frames are awaited, that of the last of them.
+    levels: BTreeMap<u64, f64>,
 }
 
-fn light<T: Trouble>(gpu: &Gpu, frames: u64, trouble: T, decisions: Receiver<Decision>) -> Ended {
-    let folder = tempfile::tempdir().unwrap();
-    let mut headset = Worn::new(gpu, pour().sample_track(), 90.0, frames, trouble);
-    let (outcome, track) = session(&mut headset, folder.path(), decisions);
-    let colour = read(gpu, &headset.inner.targets.colour);
-    let levels = colour.iter().flat_map(|pixel| &pixel[..3]);
-    let sum: f64 = levels.map(|level| f64::from(*level)).sum();
-    Ended {
-        level: sum / (3.0 * colour.len() as f64),
-        layer: headset.shown.last().unwrap().panel.is_some(),
-        hash: hash(&outcome),
-        track,
+impl<T: Trouble> Trouble for Light<T> {
+    fn turn(&mut self, headset: &mut StandIn, after: u64) -> Option<Turn> {
+        if self.at.contains(&after) {
+            let gpu = Headset::gpu(headset).clone();
+            gpu.wait_idle().unwrap();
+            let colour = read(&gpu, &headset.targets.colour);
+            let levels = colour.iter().flat_map(|pixel| &pixel[..3]);
+            let sum: f64 = levels.map(|level| f64::from(*level)).sum();
+            self.levels.insert(after, sum / (3.0 * colour.len() as f64));
+        }
+        None
     }
+
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
+        self.trouble.frame(frame, after);
+    }
+
+    fn awaits(&self, after: u64) -> bool {
+        self.trouble.awaits(after)
+    }
+}
+
+/// After so many frames each, the last of which ends the session: the mean level, and whether the panel has its own layer in that frame.
+/// A replay comes to the same bits: the dark is shown and not recorded as anything that it needs.
+fn light<const N: usize>(
+    at: [u64; N],
+    trouble: impl Trouble,
+    decisions: Receiver<Decision>,
+) -> [(f64, bool); N] {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let trouble = Light {
+        trouble,
+        at: at.to_vec(),
+        levels: BTreeMap::new(),
+    };
+    let last = at[N - 1];
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, last, trouble);
+    let (outcome, track) = session(&mut headset, folder.path(), decisions);
+    assert_eq!(replayed(&gpu, track), hash(&outcome));
+    // From the end, as frames that are awaited before do not count.
+    let layers = headset.shown.iter().rev().map(|it| it.panel.is_some());
+    let layers: Vec<bool> = layers.collect();
+    let levels = &headset.trouble.levels;
+    at.map(|after| (levels[&after], layers[(last - after) as usize]))
 }
 
 /// At 90 Hz, 0.2 s are 18 frames.
@@ -54,29 +85,19 @@ const COMES: u64 = 6;
 
 #[test]
 fn a_scene_comes_in_the_dark() {
-    let gpu = gpu::device();
-    let after = |frames: u64| {
-        let (sender, decisions) = channel();
-        light(
-            &gpu,
-            frames,
-            StartsOver {
-                asks: ASKS,
-                decisions: sender,
-            },
-            decisions,
-        )
+    let (sender, decisions) = channel();
+    let trouble = StartsOver {
+        asks: ASKS,
+        decisions: sender,
     };
-    let whole = after(ASKS).level;
+    let at = [ASKS, COMES, COMES + FADE / 2, COMES + FADE + 2];
+    let [(whole, _), (there, _), half, back] = light(at, trouble, decisions);
     // In the frame in which it is there.
-    assert!(after(COMES).level < 1.0);
-    let half = after(COMES + FADE / 2);
-    let share = half.level / whole;
-    assert!((0.25..0.8).contains(&share) && !half.layer, "{share}");
-    let back = after(COMES + FADE + 2);
-    let share = back.level / whole;
-    assert!((share - 1.0).abs() < 0.05 && back.layer, "{share}");
-    assert_eq!(replayed(&gpu, back.track), back.hash);
+    assert!(there < 1.0, "{there}");
+    let share = half.0 / whole;
+    assert!((0.25..0.8).contains(&share) && !half.1, "{share}");
+    let share = back.0 / whole;
+    assert!((share - 1.0).abs() < 0.05 && back.1, "{share}");
 }
 
 mod long {
@@ -84,21 +105,23 @@ mod long {
 
     #[test]
     fn it_fades_where_the_heads_place_is_lost() {
-        let gpu = gpu::device();
-        let after = |frames: u64| light(&gpu, frames, Lost, nobody());
-        let whole = after(LOST.start);
-        assert!(whole.level > 90.0 && whole.layer, "{}", whole.level);
-        let half = after(LOST.start + FADE / 2);
-        let share = half.level / whole.level;
-        assert!((0.3..0.75).contains(&share) && !half.layer, "{share}");
+        let (lost, found) = (LOST.start, LOST.end);
+        let at = [
+            lost,
+            lost + FADE / 2,
+            lost + FADE + 2,
+            found + 1,
+            found + FADE + 2,
+        ];
+        let [whole, half, (gone, _), (dark, _), back] = light(at, Lost, nobody());
+        assert!(whole.0 > 90.0 && whole.1, "{}", whole.0);
+        let share = half.0 / whole.0;
+        assert!((0.3..0.75).contains(&share) && !half.1, "{share}");
         // What is left is dither.
-        assert!(after(LOST.start + FADE + 2).level < 1.0);
+        assert!(gone < 1.0, "{gone}");
         // Found again, it is dark in this frame, and then comes back.
-        assert!(after(LOST.end + 1).level < 1.0);
-        let back = after(LOST.end + FADE + 2);
-        let share = back.level / whole.level;
-        assert!((share - 1.0).abs() < 0.05 && back.layer, "{share}");
-        // The dark is shown and not recorded as anything that a replay needs.
-        assert_eq!(replayed(&gpu, back.track), back.hash);
+        assert!(dark < 1.0, "{dark}");
+        let share = back.0 / whole.0;
+        assert!((share - 1.0).abs() < 0.05 && back.1, "{share}");
     }
 }

@@ -2,7 +2,7 @@
 //! session with signs and one without is the sign, since the rest is the same bits.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use glam::Vec3;
@@ -26,9 +26,9 @@ const FRAMES: u64 = 456;
 /// The left eye's pictures, by frame, row by row.
 type Pictures = Rc<RefCell<BTreeMap<u64, Vec<[u8; 4]>>>>;
 
-/// Keeps the pictures of some frames; the left hand may be a bare one that is there, and the right one gone.
+/// Keeps the pictures of some frames, and has no others drawn; the left hand may be a bare one that is there, and the right one gone.
 struct Looks {
-    at: Vec<u64>,
+    at: BTreeSet<u64>,
     bare: Option<Vec3>,
     pictures: Pictures,
     settled: Settled,
@@ -44,6 +44,10 @@ impl Trouble for Looks {
         picture.truncate((EXTENT[0] * EXTENT[1]) as usize);
         self.pictures.borrow_mut().insert(after, picture);
         None
+    }
+
+    fn draws(&self, after: u64) -> bool {
+        self.at.contains(&(after + 1))
     }
 
     fn ends(&mut self, after: u64) {
@@ -73,8 +77,8 @@ struct Session {
     outcome: SessionOutcome,
     track: Track,
     pictures: BTreeMap<u64, Vec<[u8; 4]>>,
-    /// By frame, how the left eye saw.
-    views: Vec<View>,
+    /// By frame, how the left eye saw in those that were kept.
+    views: BTreeMap<u64, View>,
 }
 
 /// In scene `two-flasks`, with controllers.
@@ -90,8 +94,9 @@ fn run_in(
     (scene, bare): (Option<&str>, Option<Vec3>),
 ) -> Session {
     let pictures = Pictures::default();
+    let at: BTreeSet<u64> = at.iter().copied().collect();
     let trouble = Looks {
-        at: at.to_vec(),
+        at: at.clone(),
         bare,
         pictures: Rc::clone(&pictures),
         settled: Settled(gpu.clone()),
@@ -105,12 +110,12 @@ fn run_in(
             options.plan.preset = Preset::Fast;
         }
     });
-    let pictures = pictures.take();
+    let views = headset.shown.iter().map(|shown| shown.views[0]);
     Session {
         outcome,
         track,
-        pictures,
-        views: headset.shown.iter().map(|shown| shown.views[0]).collect(),
+        pictures: pictures.take(),
+        views: at.into_iter().zip(views).collect(),
     }
 }
 
@@ -172,7 +177,7 @@ fn a_bare_hand_is_shown_no_trigger() {
     let [with, without] = [true, false].map(|hints| run_in(&gpu, hints, (4, &at), (None, hand)));
     let bare = sign(&with.pictures[&4], &without.pictures[&4]);
     keep_rgb("first-minute-bare", EXTENT, &with.pictures[&4]);
-    is_over_the_flask(&bare, &with.views[3]);
+    is_over_the_flask(&bare, &with.views[&4]);
     assert!(
         bare.amber == 0 && bare.blue > 0,
         "{} {}",
@@ -203,7 +208,7 @@ mod long {
         let acid = sign(&with.pictures[&4], &without.pictures[&4]);
         keep_rgb("first-minute-acid", EXTENT, &with.pictures[&4]);
         assert!(acid.blue > 0);
-        is_over_the_flask(&acid, &with.views[3]);
+        is_over_the_flask(&acid, &with.views[&4]);
     }
 
     #[test]
@@ -236,7 +241,7 @@ mod long {
         for (name, time, place) in steps {
             let n = frame(time);
             let seen = sign(&with.pictures[&n], &without.pictures[&n]);
-            let view = &with.views[n as usize - 1];
+            let view = &with.views[&n];
             let (expected, width) = projected(view, place);
             let off = [0, 1].map(|axis| (seen.middle[axis] - expected[axis]).abs() / width);
             // It is a disc, may be covered by a hand or a flask in part, and has the panel's ground, before which it is seen to pour. 18 mm off.

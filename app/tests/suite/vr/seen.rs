@@ -26,12 +26,19 @@ rate_hz = 90
 head = [ { t = 0.0, position = [0.0, 1.20, 0.0], rotation = { pitch = PITCH } } ]
 "#;
 
+/// Frames of a session, of which the last is looked at.
+const FRAMES: u64 = 4;
+
 /// Her hands are as given.
 struct Looks {
     hands: [Hand; 2],
 }
 
 impl Trouble for Looks {
+    fn draws(&self, after: u64) -> bool {
+        after + 1 == FRAMES
+    }
+
     fn frame(&mut self, frame: &mut HeadsetFrame, _: u64) {
         frame.poses.hands = self.hands.clone();
     }
@@ -76,7 +83,8 @@ fn look_down(gpu: &Gpu, name: &str, hands: [Hand; 2], bent: f32) -> (Seen, Vec<[
     let track = Keyframes::parse(&text, Path::new("looks.toml"))
         .unwrap()
         .sample_track();
-    let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 4), Looks { hands });
+    let looks = Looks { hands };
+    let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, FRAMES), looks);
     run(&mut headset, |_| ());
     let shown = headset.shown.last().unwrap();
     assert_eq!(shown.panel.map(|(_, width)| width), Some(SIZE[0]));

@@ -184,9 +184,15 @@ struct Under {
 
 const HAND: Vec3 = Vec3::new(0.02, 0.80, -0.40);
 const LOOKS: u64 = 32;
+/// Of which the last is looked at.
+const FRAMES: u64 = 40;
 const LOOKED_AT: Vec3 = Vec3::new(-0.02, 1.03, -0.22);
 
 impl Trouble for Under {
+    fn draws(&self, after: u64) -> bool {
+        after + 1 == FRAMES
+    }
+
     fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
         if self.ducks.contains(&after) {
             frame.poses.stage_from_view = Pose::new(HAND + 0.05 * Vec3::Y, Quat::IDENTITY);
@@ -205,7 +211,7 @@ fn seen_under(gpu: &Gpu, fraction: &str, ducks: Range<u64>) -> (Seen, Contacts) 
     let folder = tempfile::tempdir().unwrap();
     let keyframes = Keyframes::parse(TRACK, Path::new("beside.toml")).unwrap();
     let name = format!("under-{fraction}-{}", ducks.end);
-    let (track, frames) = (keyframes.sample_track(), (45.0, 40));
+    let (track, frames) = (keyframes.sample_track(), (45.0, FRAMES));
     let mut headset = Worn::of_extent(gpu, track, [240, 256], frames, Under { ducks });
     let options = in_scene(folder.path(), &overturned(folder.path(), fraction));
     let (outcome, _) = session_with(&mut headset, options, nobody());

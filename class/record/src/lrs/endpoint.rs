@@ -1,6 +1,5 @@
 //! The address of a Learning Record Store.
 
-use std::fmt;
 use std::net::IpAddr;
 use std::str::FromStr;
 
@@ -111,12 +110,6 @@ fn is_loopback(host: &str) -> bool {
     let number = host.trim_start_matches('[').trim_end_matches(']');
     host.eq_ignore_ascii_case("localhost")
         || number.parse().is_ok_and(|it: IpAddr| it.is_loopback())
-}
-
-impl fmt::Display for Endpoint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.address)
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! Deletes the data of a student.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use rusqlite::{Connection, params};
+use serde::Serialize;
 use serde_json::Value;
 
 use super::error::In;
@@ -16,7 +16,7 @@ use crate::Pseudonym;
 const HOME: &str = "~";
 
 /// The data of a student that were deleted, and those that could not be.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Forgotten {
     /// Attempts, with all that belonged to them.
     pub attempts: u64,
@@ -28,14 +28,23 @@ pub struct Forgotten {
     pub files: Vec<PathBuf>,
     /// Files of statements that are still there.
     pub left: Vec<Left>,
-    /// Sources of the attempts, such as recordings: these are not touched.
-    pub sources: Vec<String>,
-    /// How many statements had been sent, by the address of the Learning Record Store: they are under its control.
-    pub sent: BTreeMap<String, u64>,
+    /// Recordings that the attempts were read from: these are not touched.
+    pub recordings: Vec<String>,
+    /// Statements that had been sent, in the order of the addresses: they are under the control of who runs the store.
+    pub sent: Vec<SentTo>,
+}
+
+/// Statements that a Learning Record Store was sent.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SentTo {
+    /// Its address.
+    pub lrs: String,
+    /// How many they are.
+    pub statements: u64,
 }
 
 /// A file that could not be deleted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Left {
     /// The file.
     pub path: PathBuf,
@@ -96,20 +105,23 @@ fn look(connection: &Connection, pseudonym: &str) -> rusqlite::Result<Forgotten>
         connection.query_row(query, [pseudonym], |row| row.get(0).map(i64::unsigned_abs))
     };
     let of = "JOIN attempts USING (attempt_id) WHERE attempts.pseudonym = ?1";
-    let sent = format!("SELECT lrs, count(*) FROM sent {of} GROUP BY lrs");
+    let sent = format!("SELECT lrs, count(*) FROM sent {of} GROUP BY lrs ORDER BY lrs");
     let mut sent = connection.prepare(&sent)?;
     let sent = sent.query_map([pseudonym], |row| {
-        Ok((row.get(0)?, row.get(1).map(i64::unsigned_abs)?))
+        Ok(SentTo {
+            lrs: row.get(0)?,
+            statements: row.get(1).map(i64::unsigned_abs)?,
+        })
     })?;
-    let sources = "SELECT DISTINCT source FROM attempts WHERE pseudonym = ?1 AND source IS NOT NULL ORDER BY source";
-    let mut sources = connection.prepare(sources)?;
-    let sources = sources.query_map([pseudonym], |row| row.get(0))?;
+    let recordings = "SELECT DISTINCT source FROM attempts WHERE pseudonym = ?1 AND source IS NOT NULL ORDER BY source";
+    let mut recordings = connection.prepare(recordings)?;
+    let recordings = recordings.query_map([pseudonym], |row| row.get(0))?;
     Ok(Forgotten {
         attempts: count("SELECT count(*) FROM attempts WHERE pseudonym = ?1")?,
         incidents: count("SELECT count(*) FROM incidents WHERE pseudonym = ?1")?,
         waiting: count(&format!("SELECT count(*) FROM outbox {of}"))?,
         sent: sent.collect::<rusqlite::Result<_>>()?,
-        sources: sources.collect::<rusqlite::Result<_>>()?,
+        recordings: recordings.collect::<rusqlite::Result<_>>()?,
         ..Forgotten::default()
     })
 }

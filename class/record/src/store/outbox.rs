@@ -4,6 +4,7 @@ use rusqlite::params;
 use uuid::Uuid;
 
 use super::error::In;
+use super::read::parsed;
 use super::{Store, StoreError};
 
 /// A statement that waits.
@@ -51,7 +52,7 @@ impl Store {
                 Err(rusqlite::Error::QueryReturnedNoRows) => continue,
                 row => row.of(&self.path)?,
             };
-            let id = self.parsed(&id, "an identifier")?;
+            let id = parsed(&self.path, &id, "an identifier")?;
             found.push(Waiting {
                 number,
                 id,

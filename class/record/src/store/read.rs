@@ -1,48 +1,14 @@
 //! Reads the class's file.
 
-use std::collections::BTreeMap;
 use std::path::Path;
+use std::str::FromStr;
 
-use jiff::Timestamp;
 use rusqlite::{Connection, OptionalExtension, Row};
 use uuid::Uuid;
-use vitriol_lesson::Attempt;
 
 use super::error::In;
 use super::{Store, StoreError};
 use crate::{Cap, Entry, Points, Pseudonym, Score};
-
-/// Summary of one student's attempts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Student {
-    /// The student.
-    pub pseudonym: Pseudonym,
-    /// Number of attempts.
-    pub attempts: u64,
-    /// Number of attempts whose end is kept.
-    pub finished: u64,
-    /// The best score, points over most points; `None` where nothing was scored.
-    pub best: Option<f64>,
-    /// When the last began.
-    pub last_begun: Timestamp,
-    /// Number of incidents by kind, as in a recording's `/events`.
-    pub incidents: BTreeMap<String, u64>,
-}
-
-/// A row of `attempts`, as text.
-struct Columns {
-    id: String,
-    pseudonym: String,
-    begun: String,
-    lesson: Option<String>,
-    source: Option<String>,
-    points: Option<(f64, f64)>,
-    passed: Option<bool>,
-    attempt: String,
-}
-
-const COLUMNS: &str =
-    "attempt_id, pseudonym, begun, lesson, source, points, points_max, passed, attempt";
 
 impl Store {
     /// The attempts of a student, in the order of their beginning.
@@ -73,52 +39,8 @@ impl Store {
             .query_row(query, [id.to_string()], |row| row.get::<_, String>(0))
             .optional()
             .of(&self.path)?;
-        name.map(|name| self.parsed(&name, "a pseudonym"))
+        name.map(|name| parsed(&self.path, &name, "a pseudonym"))
             .transpose()
-    }
-
-    /// A summary of each student, by pseudonym.
-    ///
-    /// # Errors
-    /// [`StoreError`].
-    pub fn students(&mut self) -> Result<Vec<Student>, StoreError> {
-        let path = self.path.clone();
-        // Both queries see the same moment.
-        let look = self.connection.transaction().of(&path)?;
-        let mut kinds = BTreeMap::<String, BTreeMap<String, u64>>::new();
-        rows(
-            &look,
-            "SELECT pseudonym, kind, count(*) FROM incidents GROUP BY pseudonym, kind",
-            |row| {
-                let count: i64 = row.get(2)?;
-                let of = kinds.entry(row.get(0)?).or_default();
-                of.insert(row.get(1)?, count.unsigned_abs());
-                Ok(())
-            },
-        )
-        .of(&path)?;
-        let students = rows(
-            &look,
-            "SELECT pseudonym, attempts, finished, best_score, last_begun FROM students",
-            |row| {
-                let number = |i| row.get(i).map(i64::unsigned_abs);
-                let (name, last): (String, String) = (row.get(0)?, row.get(4)?);
-                Ok((name, number(1)?, number(2)?, row.get(3)?, last))
-            },
-        )
-        .of(&path)?;
-        drop(look);
-        let student = |(name, attempts, finished, best, last): (String, _, _, _, String)| {
-            Ok(Student {
-                pseudonym: self.parsed(&name, "a pseudonym")?,
-                attempts,
-                finished,
-                best,
-                last_begun: self.parsed(&last, "a time")?,
-                incidents: kinds.remove(&name).unwrap_or_default(),
-            })
-        };
-        students.into_iter().map(student).collect()
     }
 }
 
@@ -134,83 +56,73 @@ fn entries(
     condition: &str,
     value: &str,
 ) -> Result<Vec<Entry>, StoreError> {
-    let query = format!("SELECT {COLUMNS} FROM attempts WHERE {condition}");
+    let query = format!(
+        "SELECT attempt_id, pseudonym, begun, lesson, source, points, points_max, passed, attempt FROM attempts WHERE {condition}"
+    );
     let mut query = connection.prepare(&query).of(path)?;
-    let found = query.query_map([value], columns).of(path)?;
-    let found = found.collect::<rusqlite::Result<Vec<_>>>().of(path)?;
-    found
-        .into_iter()
-        .map(|row| whole(connection, path, row))
-        .collect()
+    let mut rows = query.query([value]).of(path)?;
+    let mut entries = Vec::new();
+    while let Some(row) = rows.next().of(path)? {
+        entries.push(whole(connection, path, row)?);
+    }
+    Ok(entries)
 }
 
-fn columns(row: &Row<'_>) -> rusqlite::Result<Columns> {
-    let points: Option<f64> = row.get(5)?;
-    let max: Option<f64> = row.get(6)?;
-    Ok(Columns {
-        id: row.get(0)?,
-        pseudonym: row.get(1)?,
-        begun: row.get(2)?,
-        lesson: row.get(3)?,
-        source: row.get(4)?,
-        points: points.zip(max),
-        passed: row.get(7)?,
-        attempt: row.get(8)?,
-    })
-}
-
-fn whole(connection: &Connection, path: &Path, row: Columns) -> Result<Entry, StoreError> {
-    let attempt: Attempt =
-        serde_json::from_str(&row.attempt).map_err(|_| damaged(path, "an attempt"))?;
-    let score = match row.points {
-        None => None,
-        Some((raw, max)) => {
+fn whole(connection: &Connection, path: &Path, row: &Row<'_>) -> Result<Entry, StoreError> {
+    let text = |column: usize| row.get::<_, String>(column).of(path);
+    let number = |column: usize| row.get::<_, Option<f64>>(column).of(path);
+    let attempt = serde_json::from_str(&text(8)?);
+    let id = text(0)?;
+    let score = match (number(5)?, number(6)?) {
+        (Some(raw), Some(max)) => {
             let mut score = Score::new(raw, max).map_err(|_| damaged(path, "a score"))?;
-            score.passed = row.passed;
+            score.passed = row.get(7).of(path)?;
             let query = "SELECT criterion, points, points_max FROM points WHERE attempt_id = ?1 ORDER BY position";
-            let mut query = connection.prepare(query).of(path)?;
-            let points = query.query_map([&row.id], |row| {
+            score.points = rows_of(connection, query, &id, |row| {
                 Ok(Points {
                     criterion: row.get(0)?,
                     raw: row.get(1)?,
                     max: row.get(2)?,
                 })
-            });
-            score.points = points.of(path)?.collect::<rusqlite::Result<_>>().of(path)?;
+            })
+            .of(path)?;
             let query =
                 "SELECT danger, points_max FROM caps WHERE attempt_id = ?1 ORDER BY position";
-            let mut query = connection.prepare(query).of(path)?;
-            let caps = query.query_map([&row.id], |row| {
+            score.caps = rows_of(connection, query, &id, |row| {
                 Ok(Cap {
                     danger: row.get(0)?,
                     max: row.get(1)?,
                 })
-            });
-            score.caps = caps.of(path)?.collect::<rusqlite::Result<_>>().of(path)?;
+            })
+            .of(path)?;
             Some(score)
         }
+        _ => None,
     };
-    let parsed = |what| move |_| damaged(path, what);
     Ok(Entry {
-        id: row.id.parse().map_err(|_| damaged(path, "an identifier"))?,
-        pseudonym: row
-            .pseudonym
-            .parse()
-            .map_err(|_| damaged(path, "a pseudonym"))?,
-        begun: row.begun.parse().map_err(parsed("a time"))?,
-        lesson: row.lesson,
-        source: row.source,
+        id: parsed(path, &id, "an identifier")?,
+        pseudonym: parsed(path, &text(1)?, "a pseudonym")?,
+        begun: parsed(path, &text(2)?, "a time")?,
+        lesson: row.get(3).of(path)?,
+        source: row.get(4).of(path)?,
         score,
-        attempt,
+        attempt: attempt.map_err(|_| damaged(path, "an attempt"))?,
     })
 }
 
-fn rows<T>(
+/// The rows of that attempt.
+fn rows_of<T>(
     connection: &Connection,
     query: &str,
+    id: &str,
     of: impl FnMut(&Row<'_>) -> rusqlite::Result<T>,
 ) -> rusqlite::Result<Vec<T>> {
-    connection.prepare(query)?.query_map([], of)?.collect()
+    connection.prepare(query)?.query_map([id], of)?.collect()
+}
+
+/// Parses a column's text; `what` names it in the error.
+pub(super) fn parsed<T: FromStr>(path: &Path, text: &str, what: &str) -> Result<T, StoreError> {
+    text.parse().map_err(|_| damaged(path, what))
 }
 
 fn damaged(path: &Path, what: &str) -> StoreError {

@@ -228,6 +228,21 @@ fn what_went_well_is_told_too() {
     assert_eq!(of(Tone::Bad).count(), 1);
 }
 
+/// Drops that boiling threw onto a hand may be too few for a boil-over: its points stay, and nobody is praised for it.
+#[test]
+fn boiling_that_reaches_skin_did_not_go_well() {
+    let [wrong, mut right] = attempts();
+    let is_burn = |it: &Incident| {
+        matches!(it.what, What::OnSkin { .. }) && matches!(it.cause, Cause::Boiling { .. })
+    };
+    right.incidents = wrong.incidents.into_iter().filter(is_burn).collect();
+    assert!(!right.incidents.is_empty());
+    let kept = points(&score(&right), Criterion::NothingThrownOut);
+    assert_eq!(kept, Some((15, 15)));
+    let mut said = said(&right).into_iter();
+    assert!(said.all(|it| it.text != "Nothing boiled over."));
+}
+
 /// Against the default rubric, by hand.
 #[test]
 fn points_are_what_the_rubric_says() {

@@ -59,7 +59,8 @@ fn what_is_wrong_is_named() {
     assert!(nowhere.contains("two-flasks"), "{nowhere}");
     assert!(error("\"water-into-acid\"", "3").contains("base: 3 is not"));
     // A base has a name and a description of its own.
-    assert!(error("description = \"Mine.\"", "").contains("description"));
+    assert!(error("description = \"Mine.\"", "").contains("description: is missing"));
+    assert!(error("name = \"mine\"", "").contains("name: is missing"));
     assert!(error("ambient", "ambience").contains("ambience"));
     // `name` is in the third line.
     let quote = error("name = \"mine\"", "name = \"mine");

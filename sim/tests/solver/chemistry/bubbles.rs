@@ -330,11 +330,10 @@ const DEEP: f64 = 0.024;
 #[test]
 fn a_bubble_rises_to_the_surface_and_bursts_when_its_film_has_drained() {
     let device = gpu::device();
-    for (spacing, radius, foam_time) in [
-        (D, 1e-3, None),
-        (D, 2e-3, None),
-        (0.6 * D, 1e-3, None),
-        (D, 1e-3, Some(0.1)),
+    for (spacing, foam_time, radii) in [
+        (D, None, &[1e-3, 2e-3][..]),
+        (0.6 * D, None, &[1e-3][..]),
+        (D, Some(0.1), &[1e-3][..]),
     ] {
         let law = bubbling(bubbly(), |it| it.foam_time = foam_time);
         let profile = Profile::new(&[[0.0, 0.02], [0.06, 0.02]], 0.002).unwrap();
@@ -351,8 +350,8 @@ fn a_bubble_rises_to_the_surface_and_bursts_when_its_film_has_drained() {
         let solver = Setup::new(of(law, p), vec![profile], particles).solver(&device);
         frames(&device, &solver, &[Pose::IDENTITY], 60);
         // Half of d over the uppermost layer, away from the meniscus.
-        let positions = solver.snapshot().unwrap().positions;
-        let amid = positions
+        let calm = solver.snapshot().unwrap();
+        let amid = (calm.positions)
             .iter()
             .filter(|x| f64::from(x[0].hypot(x[2])) < AMID);
         let mut heights: Vec<f64> = amid.map(|x| x[1].into()).collect();
@@ -360,42 +359,45 @@ fn a_bubble_rises_to_the_surface_and_bursts_when_its_film_has_drained() {
         let layer = heights
             .split_off(heights.len() - (heights.len() as f64 * spacing / (2.0 * DEEP)) as usize);
         let surface = layer.iter().sum::<f64>() / layer.len() as f64 + 0.5 * spacing;
-        put(
-            &solver,
-            1,
-            DVec3::Y * (surface - radius - 0.014),
-            radius,
-            100.0,
-        );
-        let mass = bubble(&solver).mass;
-        let mut steps = 0;
-        while bubble(&solver).surfaced == 0.0 {
-            frames(&device, &solver, &[Pose::IDENTITY], 1);
-            steps += 1;
-            assert!(steps < 200, "{:?}", bubble(&solver));
+        for &radius in radii {
+            solver.restore(&calm).unwrap();
+            put(
+                &solver,
+                1,
+                DVec3::Y * (surface - radius - 0.014),
+                radius,
+                100.0,
+            );
+            let mass = bubble(&solver).mass;
+            let mut steps = 0;
+            while bubble(&solver).surfaced == 0.0 {
+                frames(&device, &solver, &[Pose::IDENTITY], 1);
+                steps += 1;
+                assert!(steps < 200, "{:?}", bubble(&solver));
+            }
+            let depth = surface - f64::from(bubble(&solver).position[1]);
+            let mut stayed = 0.0;
+            while bubble(&solver).mass > 0.0 {
+                frames(&device, &solver, &[Pose::IDENTITY], 1);
+                stayed += STEP;
+                assert!(stayed < 1.0, "{:?}", bubble(&solver));
+            }
+            let expected = foam_time.unwrap_or(life(radius));
+            eprintln!("{spacing}, {radius}: {depth} m deep, stayed {stayed} s of {expected}");
+            assert!(
+                (-2e-3..radius + 0.5 * spacing).contains(&depth),
+                "{spacing}, {radius}: {depth}"
+            );
+            assert!(
+                (stayed / expected - 1.0).abs() < 0.1 + 2.0 * STEP / expected,
+                "{stayed}, {expected}"
+            );
+            let after = bubble(&solver);
+            assert!(
+                (after.gone[0] / mass - 1.0).abs() < 0.05,
+                "{mass}, {after:?}"
+            );
         }
-        let depth = surface - f64::from(bubble(&solver).position[1]);
-        let mut stayed = 0.0;
-        while bubble(&solver).mass > 0.0 {
-            frames(&device, &solver, &[Pose::IDENTITY], 1);
-            stayed += STEP;
-            assert!(stayed < 1.0, "{:?}", bubble(&solver));
-        }
-        let expected = foam_time.unwrap_or(life(radius));
-        eprintln!("{spacing}, {radius}: {depth} m deep, stayed {stayed} s of {expected}");
-        assert!(
-            (-2e-3..radius + 0.5 * spacing).contains(&depth),
-            "{spacing}, {radius}: {depth}"
-        );
-        assert!(
-            (stayed / expected - 1.0).abs() < 0.1 + 2.0 * STEP / expected,
-            "{stayed}, {expected}"
-        );
-        let after = bubble(&solver);
-        assert!(
-            (after.gone[0] / mass - 1.0).abs() < 0.05,
-            "{mass}, {after:?}"
-        );
     }
 }
 

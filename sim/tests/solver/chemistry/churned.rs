@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::{Solver, SolverState};
 use vitriol_tests::gpu;
 
 /// Inner radius of the vessel, m: that of a beaker of 400 mL.
@@ -42,17 +43,28 @@ fn correlation(j: f64, h: f64) -> f64 {
     }
 }
 
-/// Mass of liquid that passes each of `heights` (m) over the surface, over that of the steam that throws it up, of a pool out of which
-/// steam comes with `j` (m/s).
-fn entrained(device: &Gpu, j: f64, heights: [f64; 3]) -> [f64; 3] {
+/// A pool of water at 100 °C in that vessel, and its state once it has come to rest.
+fn pool(device: &Gpu) -> (Solver, SolverState) {
     let profile = Profile::new(&[[0.0, RADIUS], [0.4, RADIUS]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, 3600);
     fill(&mut particles, |_| (100.0, 0.0));
     let law = bubbling(spraying(bubbly()), |it| it.most = 16_384);
     let solver = Setup::new(of(law, parameters()), vec![profile], particles).solver(device);
     frames(device, &solver, &[Pose::IDENTITY], 20);
-    let p = solver.parameters().clone();
     let calm = solver.snapshot().unwrap();
+    (solver, calm)
+}
+
+/// Mass of liquid that passes each of `heights` (m) over the surface, over that of the steam that throws it up, of a pool out of which
+/// steam comes with `j` (m/s).
+fn entrained(
+    device: &Gpu,
+    (solver, calm): &(Solver, SolverState),
+    j: f64,
+    heights: [f64; 3],
+) -> [f64; 3] {
+    solver.restore(calm).unwrap();
+    let p = solver.parameters();
     let surface = calm.positions.iter().map(|x| x[1]).fold(0.0, f32::max);
     let surface = f64::from(surface) + 0.5 * p.spacing;
     let flow = j * PI * RADIUS * RADIUS;
@@ -82,13 +94,13 @@ fn entrained(device: &Gpu, j: f64, heights: [f64; 3]) -> [f64; 3] {
             slot += 1;
             let at = random.point(0.8);
             let at = DVec3::new(RADIUS * at.x, surface - BUBBLE, RADIUS * at.z);
-            state.put_bubble(&p, slot, 1, [at, DVec3::ZERO], [BUBBLE, 100.0]);
+            state.put_bubble(p, slot, 1, [at, DVec3::ZERO], [BUBBLE, 100.0]);
             state.bubbles_mut()[slot].surfaced = 10.0;
             steam += f64::from(state.bubbles()[slot].mass);
         }
         state.set_vented_flow(0, flow);
         solver.restore(&state).unwrap();
-        frames(device, &solver, &[Pose::IDENTITY], 1);
+        frames(device, solver, &[Pose::IDENTITY], 1);
     }
     passed.map(|mass| mass / steam)
 }
@@ -98,10 +110,13 @@ fn entrained(device: &Gpu, j: f64, heights: [f64; 3]) -> [f64; 3] {
 #[test]
 fn as_much_comes_over_a_rim_as_kataoka_and_ishii_found() {
     let device = gpu::device();
+    let pool = pool(&device);
     let heights = [0.03, 0.07, 0.15];
-    for j in [0.3, 0.4] {
-        let found = entrained(&device, j, heights);
-        for (found, h) in found.into_iter().zip(heights) {
+    let of = |j| entrained(&device, &pool, j, heights);
+    // At 0.1 m/s their region of low flux begins.
+    let [_, _, calm] = [0.3, 0.4, 0.1].map(|j| {
+        let all = of(j);
+        for (found, h) in all.into_iter().zip(heights) {
             let expected = correlation(j, h);
             eprintln!("{j} m/s, {h} m: {found:e}, {expected:e} expected");
             assert!(
@@ -109,19 +124,10 @@ fn as_much_comes_over_a_rim_as_kataoka_and_ishii_found() {
                 "{j}, {h}: {found}"
             );
         }
-    }
+        all
+    });
     // A tenth of the steam's mass at 70 mm between 0.5 and 0.9 m/s, and none to speak of at 0.1.
-    assert!(entrained(&device, 0.9, heights)[1] > 0.1);
-    assert!(entrained(&device, 0.5, heights)[1] < 0.1);
-    let calm = entrained(&device, 0.1, heights);
     assert!(calm[1] < 1e-4, "{calm:?}");
-    // There their region of low flux begins.
-    for (found, h) in calm.into_iter().zip(heights) {
-        let expected = correlation(0.1, h);
-        eprintln!("0.1 m/s, {h} m: {found:e}, {expected:e} expected");
-        assert!(
-            (1.0 / 3.0..3.0).contains(&(found / expected)),
-            "0.1, {h}: {found}"
-        );
-    }
+    assert!(of(0.9)[1] > 0.1);
+    assert!(of(0.5)[1] < 0.1);
 }

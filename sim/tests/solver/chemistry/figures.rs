@@ -1,9 +1,9 @@
 //! The scenes of the paper's figures, as far as the suite has time for them.
 
+use crate::common::steps;
 use vitriol_shaders::Library;
-use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::{StepInput, World};
+use vitriol_sim::world::World;
 use vitriol_tests::gpu;
 
 /// Kinetic energy of the soup (J) after 80 frames, at k_v, of particles so many times as wide.
@@ -13,10 +13,7 @@ fn soup(intensity: f64, coarser: f64) -> f64 {
     scene.scale.spacing *= coarser;
     let device = gpu::device();
     let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
-    let idle = StepInput::of_hands([Hand::ABSENT; 2]);
-    for _ in 0..80 {
-        world.step(&idle).unwrap();
-    }
+    steps(&mut world, 80);
     world.measure().unwrap().kinetic_energy
 }
 
@@ -62,20 +59,17 @@ mod long {
                 .position(|flask| flask.name == name)
                 .unwrap()
         });
-        let idle = StepInput::of_hands([Hand::ABSENT; 2]);
         let mut boiling = [0; 3];
         let mut hottest = [f64::NEG_INFINITY; 3];
         // 2.7 s: from a second on the two that boil differ by a factor of two and more.
-        for step in 0..160 {
-            world.step(&idle).unwrap();
-            if step % 10 == 9 {
-                let heat = world.measure().unwrap().heat.unwrap();
-                let superheat = heat.superheat.unwrap();
-                for (k, &flask) in flasks.iter().enumerate() {
-                    boiling[k] += superheat.in_flasks.get(flask).copied().unwrap_or(0);
-                    let [_, most] = heat.temperatures_in_flasks[flask];
-                    hottest[k] = hottest[k].max(most);
-                }
+        for _ in 0..16 {
+            steps(&mut world, 10);
+            let heat = world.measure().unwrap().heat.unwrap();
+            let superheat = heat.superheat.unwrap();
+            for (k, &flask) in flasks.iter().enumerate() {
+                boiling[k] += superheat.in_flasks.get(flask).copied().unwrap_or(0);
+                let [_, most] = heat.temperatures_in_flasks[flask];
+                hottest[k] = hottest[k].max(most);
             }
         }
         let [none, some, more] = boiling;
