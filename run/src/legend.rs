@@ -18,14 +18,7 @@ pub(crate) const SIZE: RasterHeight = RasterHeight::Size16;
 
 /// What legends are written in.
 #[derive(Clone, Debug)]
-pub struct Words {
-    temperature: String,
-    acid: String,
-    tints: String,
-    water: String,
-    sulfuric_acid: String,
-    decimal: String,
-}
+pub struct Words(Texts);
 
 impl Words {
     /// Those of a language. The font of films has Latin letters alone, so Chinese films have English ones.
@@ -36,15 +29,8 @@ impl Words {
         let texts = Texts::of(match language {
             Language::Zh => Language::En,
             other => other,
-        })?;
-        Ok(Self {
-            temperature: texts.legend.temperature,
-            acid: texts.legend.acid,
-            tints: texts.legend.tints,
-            water: texts.panel.water,
-            sulfuric_acid: texts.panel.sulfuric_acid,
-            decimal: texts.panel.spilt.decimal,
-        })
+        });
+        Ok(Self(texts?))
     }
 
     /// Draws what `colours` stand for into the upper left corner of `picture` (RGBA rows of `width` pixels, from the top);
@@ -65,9 +51,9 @@ impl Words {
     fn draw_tints(&self, picture: &mut [u8], width: usize) {
         let text = SIZE.val();
         let lines = [
-            (None, &self.tints),
-            (Some(tints::WATER), &self.water),
-            (Some(tints::ACID), &self.sulfuric_acid),
+            (None, &self.0.legend.tints),
+            (Some(tints::WATER), &self.0.panel.water),
+            (Some(tints::ACID), &self.0.panel.sulfuric_acid),
         ];
         let line = text + 6;
         let letters = lines.iter().map(|(_, name)| name.chars().count() + 3).max();
@@ -112,9 +98,9 @@ impl Legend {
         let (title, step, decimals) = match colour_by {
             ColourBy::Speed(_) => return None,
             ColourBy::Temperature(coldest, hottest) => {
-                (&words.temperature, tick_step(hottest - coldest), 0)
+                (&words.0.legend.temperature, tick_step(hottest - coldest), 0)
             }
-            ColourBy::Acid => (&words.acid, 0.2, 1),
+            ColourBy::Acid => (&words.0.legend.acid, 0.2, 1),
         };
         Some(Self {
             title: title.clone(),
@@ -157,7 +143,8 @@ impl Legend {
             for y in 0..TICK {
                 canvas.blend(at, top + y, [INK; 3], 255);
             }
-            let label = format!("{value:.*}", self.decimals).replace('.', &words.decimal);
+            let decimal = &words.0.panel.spilt.decimal;
+            let label = format!("{value:.*}", self.decimals).replace('.', decimal);
             let wide = label.chars().count() * get_raster_width(FontWeight::Regular, SIZE);
             let start = (at.saturating_sub(wide / 2)).clamp(MARGIN, left + BAR[0] + PADDING - wide);
             canvas.write(SIZE, [start, top + TICK], &label);
@@ -200,13 +187,14 @@ mod tests {
     #[test]
     fn words_are_drawn_in_the_films_language() {
         for language in Language::ALL {
-            let words = Words::of(language).unwrap();
+            let Words(texts) = Words::of(language).unwrap();
+            let (legend, panel) = (&texts.legend, &texts.panel);
             for text in [
-                &words.temperature,
-                &words.acid,
-                &words.tints,
-                &words.water,
-                &words.sulfuric_acid,
+                &legend.temperature,
+                &legend.acid,
+                &legend.tints,
+                &panel.water,
+                &panel.sulfuric_acid,
             ] {
                 for letter in text.chars() {
                     let raster = get_raster(letter, FontWeight::Regular, SIZE);

@@ -3,6 +3,7 @@
 
 mod recording;
 
+use serde::Serialize;
 use vitriol_gpu::{QueueKind, Ticket};
 use vitriol_lesson as lesson;
 use vitriol_lesson::procedure::Progress;
@@ -377,24 +378,23 @@ impl Run {
     }
 
     fn found(&mut self, events: Vec<lesson::Event>) {
-        if let Some(recording) = &mut self.recording {
-            for event in &events {
-                // A struct of numbers and texts has a JSON; what is not finite becomes null.
-                let json = serde_json::to_string(event).unwrap_or_default();
-                recording.found(nanoseconds(&self.time), Note::Event(json));
-            }
-        }
+        self.note(&events, Note::Event);
         self.events.extend(events);
     }
 
     fn progressed(&mut self, said: Vec<Progress>) {
+        self.note(&said, Note::Progress);
+        self.progress.extend(said);
+    }
+
+    fn note(&mut self, found: &[impl Serialize], kind: fn(String) -> Note) {
         if let Some(recording) = &mut self.recording {
-            for progress in &said {
-                let json = serde_json::to_string(progress).unwrap_or_default();
-                recording.found(nanoseconds(&self.time), Note::Progress(json));
+            for found in found {
+                // A struct of numbers and texts has a JSON; what is not finite becomes null.
+                let json = serde_json::to_string(found).unwrap_or_default();
+                recording.found(nanoseconds(&self.time), kind(json));
             }
         }
-        self.progress.extend(said);
     }
 }
 

@@ -1,5 +1,20 @@
 //! The string table: what is said to a user, in the user's language.
 
+/// Declares a section of the table, with its keys by visibility and type; other keys are refused.
+macro_rules! section {
+    ($what:literal, $name:ident: $($vis:vis $kind:ty { $($key:ident)+ })+) => {
+        #[doc = $what]
+        #[derive(Clone, Debug, PartialEq, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $($(
+                #[doc = concat!("Key `", stringify!($key), "`.")]
+                $vis $key: $kind,
+            )+)+
+        }
+    };
+}
+
 mod grades;
 mod panel;
 mod pointed;
@@ -14,68 +29,28 @@ pub use self::grades::{FilesTexts, GradesTexts, Otherwise, VerifiedTexts};
 pub use self::panel::{AcidOnTexts, EffortTexts, PanelTexts, SpiltTexts};
 pub use self::pointed::PointedTexts;
 
-/// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Texts {
-    heard: Heard,
-    /// Texts on an instructor's actions.
-    pub instructor: InstructorTexts,
-    /// Texts around a lesson's own.
-    pub lesson: LessonTexts,
-    /// Texts around the summary of an attempt.
-    pub summary: SummaryTexts,
-    /// Texts of the panel itself.
-    pub panel: PanelTexts,
-    /// Texts of the label at a desk's pointer.
-    pub pointed: PointedTexts,
-    /// Texts of a class's grades.
-    pub grades: GradesTexts,
-    /// What of a recording is not whole.
-    pub track: TrackTexts,
-    /// Texts in a film's pictures.
-    pub legend: LegendTexts,
-}
-
-/// Texts in a film's pictures, of Latin letters.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LegendTexts {
-    /// Title of the scale of temperature.
-    pub temperature: String,
-    /// Title of the scale of acid.
-    pub acid: String,
-    /// Note that the tints are artificial.
-    pub tints: String,
-}
-
-/// What of a recording is not whole.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TrackTexts {
-    /// Its first step is missing.
-    pub no_first: Template,
-    /// Its first steps are.
-    pub no_firsts: Template,
-    /// Why it ends: a step is missing.
-    pub hole: Template,
-    /// Likewise several.
-    pub holes: Template,
-    /// Likewise: it is cut.
-    pub cut: Template,
-    /// What is whole of it is replayed.
-    pub replayed: Template,
-    /// It is refused because it has no end.
-    pub breaks_off: Template,
-}
-
-/// Texts around a lesson's own.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LessonTexts {
-    step: String,
-    points: String,
-}
+section!("The texts of one language: a file of `run/texts`, of which each key is used and none is missing.", Texts:
+    Heard { heard }
+    pub InstructorTexts { instructor }
+    pub LessonTexts { lesson }
+    pub SummaryTexts { summary }
+    pub PanelTexts { panel }
+    pub PointedTexts { pointed }
+    pub GradesTexts { grades }
+    pub TrackTexts { track }
+    pub LegendTexts { legend });
+section!("Texts in a film's pictures, of Latin letters.", LegendTexts: pub String { temperature acid tints });
+section!("What of a recording is not whole.", TrackTexts:
+    pub Template { no_first no_firsts hole holes cut replayed breaks_off });
+section!("Texts around a lesson's own.", LessonTexts: String { step points });
+section!("Texts on an instructor's actions.", InstructorTexts:
+    pub String { start held end }
+    String { scene goes_on speed full_speed muted heard intensity message unsaid });
+section!("Texts around the summary of an attempt, whose sentences are of [`vitriol_lesson::Texts`].", SummaryTexts:
+    pub String { title before nothing back }
+    String { scene points more });
+section!("Sounds in words.", Heard:
+    String { pouring simmering boiling bubbling drops glass_on_bench glass_on_glass knock glass_breaks acid_on_glove });
 
 impl LessonTexts {
     /// A step, of how many, and what is to be done.
@@ -91,27 +66,6 @@ impl LessonTexts {
         let text = self.points.replace("{points}", &points.to_string());
         text.replace("{of}", &of.to_string())
     }
-}
-
-/// Texts on an instructor's actions.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct InstructorTexts {
-    scene: String,
-    /// The present scene from its start.
-    pub start: String,
-    /// Time is held.
-    pub held: String,
-    goes_on: String,
-    speed: String,
-    full_speed: String,
-    muted: String,
-    heard: String,
-    intensity: String,
-    message: String,
-    unsaid: String,
-    /// The session is ended.
-    pub end: String,
 }
 
 impl InstructorTexts {
@@ -146,23 +100,6 @@ impl InstructorTexts {
     }
 }
 
-/// Texts around the summary of an attempt, whose sentences are of [`vitriol_lesson::Texts`].
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SummaryTexts {
-    /// Its title.
-    pub title: String,
-    /// Its title where it is of an earlier attempt than the present one.
-    pub before: String,
-    scene: String,
-    points: String,
-    /// Where nothing has happened.
-    pub nothing: String,
-    more: String,
-    /// Text of the button that closes it.
-    pub back: String,
-}
-
 impl SummaryTexts {
     /// The scene of an earlier attempt, by its title.
     pub fn scene(&self, title: &str) -> String {
@@ -189,22 +126,6 @@ fn table(language: Language) -> &'static str {
         Language::Es => include_str!("../texts/es.toml"),
         Language::Zh => include_str!("../texts/zh.toml"),
     }
-}
-
-/// Sounds in words.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Heard {
-    pouring: String,
-    simmering: String,
-    boiling: String,
-    bubbling: String,
-    drops: String,
-    glass_on_bench: String,
-    glass_on_glass: String,
-    knock: String,
-    glass_breaks: String,
-    acid_on_glove: String,
 }
 
 impl Texts {

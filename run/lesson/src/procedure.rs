@@ -10,7 +10,6 @@ mod fits;
 mod judge;
 mod keeping;
 mod mode;
-mod panel;
 mod progress;
 mod read;
 mod record;

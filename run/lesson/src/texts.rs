@@ -102,7 +102,7 @@ section!(LeftOut: nothing_poured no_acid no_heat);
 section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
     sash_open time_up wrong_answer skipped not_done);
 section!(ModeNames: guided free examination);
-section!(PanelTexts: hint skip finish steps more);
+section!(pub PanelTexts, "Labels on the panel around a lesson's steps.": hint skip finish steps more);
 section!(GlassTexts: water acid layers empty left right nth);
 section!(Done: water_into_acid acid_into_water);
 section!(Forms: label subject into of);
@@ -152,7 +152,8 @@ pub struct Texts {
     pub(crate) left_out: LeftOut,
     pub(crate) why: WhyTexts,
     pub(crate) mode: ModeNames,
-    pub(crate) panel: PanelTexts,
+    /// Labels on the panel around a lesson's steps.
+    pub panel: PanelTexts,
     pub(crate) glass: GlassTexts,
     /// Kinds of flasks, each in the forms that sentences ask for.
     pub(crate) vessel: BTreeMap<Vessel, Forms>,

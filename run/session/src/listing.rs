@@ -1,7 +1,7 @@
 //! A lesson on the panel: its steps as the mode allows, and the actions that the user can ask for.
 
 use vitriol_lesson::procedure::{State, Status, StepState};
-use vitriol_lesson::{Language, Lesson, Mode, Procedure, Texts};
+use vitriol_lesson::{Language, Lesson, Mode, Procedure, Template, Texts};
 use vitriol_run::Action;
 
 use super::info::{ActLine, Mark, Shown};
@@ -83,7 +83,7 @@ pub fn shown(
             Shown {
                 step: title.clone(),
                 steps,
-                note: (more > 0).then(|| words.texts.more_steps(more)),
+                note: (more > 0).then(|| numbered(&words.texts.panel.more, more)),
                 hint,
                 failed,
                 acts,
@@ -93,7 +93,7 @@ pub fn shown(
         // A user who is examined is told the task, and not its state.
         (Mode::Examination, _) => Shown {
             step: format!("{title}: {}", of_lesson.summary),
-            note: Some(words.texts.steps_in_all(state.steps.len())),
+            note: Some(numbered(&words.texts.panel.steps, state.steps.len())),
             acts,
             quiet: true,
             ..Shown::default()
@@ -134,14 +134,19 @@ pub fn can_ask(mode: Mode) -> &'static [Action] {
     }
 }
 
+fn numbered(label: &Template, count: usize) -> String {
+    label.fill(&[("number", &count.to_string())])
+}
+
 fn acts(state: &State, hinted: Option<&str>, texts: &Texts) -> Vec<ActLine> {
     let line = |act: &Action| ActLine {
         act: act.clone(),
         text: match act {
-            Action::Hint(_) => texts.ask_hint(),
-            Action::Skip(_) => texts.skip_step(),
-            _ => texts.finish_lesson(),
-        },
+            Action::Hint(_) => &texts.panel.hint,
+            Action::Skip(_) => &texts.panel.skip,
+            _ => &texts.panel.finish,
+        }
+        .to_string(),
         on: *act != Action::Hint(None) || to_hint(state, hinted).is_some(),
     };
     can_ask(state.mode).iter().map(line).collect()

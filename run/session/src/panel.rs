@@ -12,7 +12,7 @@ mod view;
 
 pub(crate) use self::aimed::Aimed;
 pub(crate) use self::colours::{SAID, WARNING, WHITE};
-pub(crate) use self::view::style;
+pub(crate) use self::view::context;
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2};
 use glam::{Quat, Vec3};
@@ -95,11 +95,9 @@ impl Panel {
     /// # Errors
     /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
-        let context = egui::Context::default();
-        style(&context);
         Ok(Self {
             words: Texts::english()?.panel,
-            context,
+            context: context(),
             painter: Painter::new(gpu, library, "panel")?,
             image: painter::image(gpu, "panel", PANEL)?,
             kept_back: true,
@@ -213,15 +211,9 @@ impl Panel {
     }
 
     fn show(&mut self, shown: &Shown, events: Vec<Event>) -> view::Seen {
-        let [width, height] = PANEL.map(|side| side as f32);
-        let input = RawInput {
-            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
-            events,
-            ..RawInput::default()
-        };
         let mut seen = view::Seen::default();
         let ring = shown.ring.map(|step| step as f32 / RING);
-        let output = self.context.run(input, |context| {
+        let output = self.context.run(input(events), |context| {
             let said = (&shown.info, &self.words);
             seen = view::show(context, said, shown.pointer, ring);
         });
@@ -252,6 +244,16 @@ impl Panel {
         rec.copy_image(&self.image, target).other()?;
         self.kept_back = false;
         Ok(())
+    }
+}
+
+/// What the whole panel takes in, with these events.
+fn input(events: Vec<Event>) -> RawInput {
+    let [width, height] = PANEL.map(|side| side as f32);
+    RawInput {
+        screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
+        events,
+        ..RawInput::default()
     }
 }
 

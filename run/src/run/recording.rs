@@ -172,9 +172,7 @@ impl TrackRecording {
     /// Queues a step, or counts it as unwritten where the queue is full; does not wait.
     pub fn push(&mut self, frame: &PoseFrame, flasks: Vec<Pose>) {
         let mut frame = frame.clone();
-        let mut switches = std::mem::take(&mut self.switches);
-        switches.append(&mut frame.scenario);
-        frame.scenario = switches;
+        drop(frame.scenario.splice(..0, self.switches.drain(..)));
         self.last = Some(frame.clone());
         let Some(queue) = &self.queue else {
             return;
@@ -327,11 +325,7 @@ impl<'a> Recorder<'a> {
 
     fn take(&mut self, mut frame: PoseFrame, flasks: Option<Vec<Pose>>) {
         let is_step = flasks.is_some();
-        if !self.switches.is_empty() {
-            let mut switches = std::mem::take(&mut self.switches);
-            switches.append(&mut frame.scenario);
-            frame.scenario = switches;
-        }
+        drop(frame.scenario.splice(..0, self.switches.drain(..)));
         match self.sink.write(&frame, &flasks.unwrap_or_default()) {
             Ok(()) => {
                 self.taken += u64::from(is_step);

@@ -7,142 +7,21 @@ use vitriol_lesson::Template;
 
 use crate::in_a_line;
 
-/// Texts of a class's grades.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GradesTexts {
-    /// Title of the page.
-    pub title: String,
-    /// Note that the rows can be sorted.
-    pub sort: String,
-    /// Head of the column of students.
-    pub student: String,
-    /// Head of the column of scenes.
-    pub scene: String,
-    /// Head of the column of points.
-    pub points: String,
-    /// Head of the column of what went wrong first.
-    pub first_wrong: String,
-    /// Head of the column of caps.
-    pub cap: String,
-    /// Head of the column of lessons.
-    pub lesson: String,
-    /// Head of the column of incidents and notes, in a terminal.
-    pub notes: String,
-    /// Of a recording that is not graded, in the column of points of a terminal.
-    pub not_graded: String,
-    /// Likewise of one that could not be read.
-    pub failed: String,
-    /// How many results an earlier call left.
-    pub taken: Template,
-    /// How many attempts a simulation finds otherwise.
-    pub refuted: Template,
-    /// Where nothing went wrong.
-    pub nothing: String,
-    /// Where an attempt has no end.
-    pub broken_off: String,
-    /// Texts on simulating a recording again.
-    pub verified: VerifiedTexts,
-    /// What is wrong with the files of a class.
-    pub files: FilesTexts,
-    /// Kinds of incidents in a word or two, by their names in a recording.
-    kind: BTreeMap<String, String>,
-    made: MadeTexts,
-    unread: String,
-    otherwise: String,
-    counted: String,
-}
-
-/// Texts on whether a simulation finds what a recording says.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct VerifiedTexts {
-    /// Head of the column.
-    pub head: String,
-    /// All is the same, to the bit.
-    pub to_the_bit: String,
-    /// All is the same within the tolerance, on another device.
-    pub within_tolerance: String,
-    /// Something is not.
-    pub differs: String,
-    /// The bits differ, though nothing is known that would change them.
-    pub same_device: Template,
-    /// How far apart moments and volumes are that are within the tolerance.
-    pub apart: Template,
-    /// What is in the recording, and what was found.
-    pub values: Template,
-    /// How many attempts there are.
-    pub attempts: Template,
-    /// How often the lesson was begun.
-    pub lessons: Template,
-    /// What differs in an attempt.
-    pub attempt: Template,
-    /// Points of a step.
-    pub points_of: Template,
-    /// A moment.
-    pub at: Template,
-    /// Pours between two flasks.
-    pub poured: Template,
-    /// Pours that came to no flask.
-    pub poured_beside: Template,
-    /// A flask that broke.
-    pub broken: Template,
-    /// A part of the body that gloves or goggles protected.
-    pub protected: Template,
-    /// The bench.
-    pub bench: String,
-    /// The floor.
-    pub floor: String,
-    /// The left hand.
-    pub left_hand: String,
-    /// The right hand.
-    pub right_hand: String,
-    /// The face.
-    pub face: String,
-}
-
-/// What is wrong with the files of a class.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FilesTexts {
-    /// Files that are no recordings.
-    pub passed_over: Template,
-    /// Recordings that could not be read.
-    pub bad: Template,
-    /// No recording is graded, though all could be read.
-    pub nothing: Template,
-    /// The first few of several names.
-    pub more: Template,
-    /// Two recordings have one name.
-    pub same_name: Template,
-    /// A folder is not there.
-    pub no_folder: Template,
-    /// A folder has no recordings.
-    pub no_recordings: Template,
-    /// A folder cannot be listed.
-    pub unlisted: Template,
-    /// A recording is not there.
-    pub no_file: Template,
-    /// A recording has no events.
-    pub no_events: Template,
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MadeTexts {
-    scene: Template,
-    unnamed_scene: Template,
-    scene_text: Template,
-    no_scene_text: Template,
-    intensity: Template,
-    no_lesson: Template,
-    lesson: Template,
-    lesson_text: Template,
-    mode: Template,
-    progress: Template,
-    preset: Template,
-    no_preset: Template,
-}
+section!("Texts of a class's grades.", GradesTexts:
+    pub String { title sort student scene points first_wrong cap lesson notes not_graded failed nothing broken_off }
+    pub Template { taken refuted }
+    pub VerifiedTexts { verified }
+    pub FilesTexts { files }
+    BTreeMap<String, String> { kind }
+    MadeTexts { made }
+    String { unread otherwise counted });
+section!("Texts on whether a simulation finds what a recording says.", VerifiedTexts:
+    pub String { head to_the_bit within_tolerance differs bench floor left_hand right_hand face }
+    pub Template { same_device apart values attempts lessons attempt points_of at poured poured_beside broken protected });
+section!("What is wrong with the files of a class.", FilesTexts:
+    pub Template { passed_over bad nothing more same_name no_folder no_recordings unlisted no_file no_events });
+section!("In what a recording was made otherwise.", MadeTexts:
+    Template { scene unnamed_scene scene_text no_scene_text intensity no_lesson lesson lesson_text mode progress preset no_preset });
 
 /// In what a recording was made otherwise than a class is graded by, with the name of what it was made with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,23 +4,10 @@ use serde::Deserialize;
 use vitriol_lesson::Template;
 use vitriol_sim::scene::ToolKind;
 
-/// Texts that name what the pointer is at, and say what a press does.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PointedTexts {
-    flask: Template,
-    filled: Template,
-    rod: String,
-    thermometer: String,
-    cloth: String,
-    goggles: String,
-    gloves: String,
-    sash: String,
-    /// A glove on the other hand.
-    pub glove: String,
-    button: Template,
-    held: Template,
-}
+section!("Texts that name what the pointer is at, and say what a press does.", PointedTexts:
+    pub String { glove }
+    String { rod thermometer cloth goggles gloves sash }
+    Template { flask filled button held });
 
 impl PointedTexts {
     /// A flask of that name, with so many whole mL in it; `None` where that is not told.

@@ -7,9 +7,8 @@ use std::path::Path;
 use openh264::decoder::{DecodedYUV, Decoder};
 use openh264::formats::YUVSource;
 use vitriol_run::{Film, FilmError};
-use vitriol_tests::browser;
 
-use crate::mp4;
+use crate::{mp4, told};
 
 const WIDTH: u32 = 320;
 const HEIGHT: u32 = 180;
@@ -190,9 +189,7 @@ fn an_unfinished_film_is_in_its_file() {
 
     let killed = folder.path().join("killed.mp4");
     fs::write(killed, bytes).unwrap();
-    fs::write(
-        folder.path().join("page.html"),
-        r#"<!doctype html><script>
+    let page = r#"<!doctype html><script>
         const told = (value) => console.log("TOLD " + JSON.stringify(value));
         const film = document.createElement("video");
         film.muted = true;
@@ -205,13 +202,10 @@ fn an_unfinished_film_is_in_its_file() {
           told({ width: film.videoWidth, height: film.videoHeight });
         };
         film.play();
-        </script>"#,
-    )
-    .unwrap();
-    if let Some(visit) = browser::visit(&folder.path().join("page.html")) {
-        let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
-        assert_eq!(told["width"], WIDTH, "{visit:?}");
-        assert_eq!(told["height"], HEIGHT, "{visit:?}");
+        </script>"#;
+    if let Some(told) = told(folder.path(), page) {
+        assert_eq!(told["width"], WIDTH, "{told}");
+        assert_eq!(told["height"], HEIGHT, "{told}");
     }
 }
 
@@ -219,9 +213,7 @@ fn an_unfinished_film_is_in_its_file() {
 fn a_browser_plays_and_seeks_it() {
     let folder = tempfile::tempdir().unwrap();
     make_film(&folder.path().join("film.mp4"));
-    fs::write(
-        folder.path().join("page.html"),
-        r#"<!doctype html><canvas></canvas><script>
+    let page = r#"<!doctype html><canvas></canvas><script>
         const told = (value) => console.log("TOLD " + JSON.stringify(value));
         const film = document.createElement("video");
         film.muted = true;
@@ -259,14 +251,11 @@ fn a_browser_plays_and_seeks_it() {
           told({ duration: film.duration, width: film.videoWidth, height: film.videoHeight, rows });
         };
         </script>"#
-            .replace("COLOURS", &serde_json::to_string(&COLOURS).unwrap()),
-    )
-    .unwrap();
-    let Some(visit) = browser::visit(&folder.path().join("page.html")) else {
+        .replace("COLOURS", &serde_json::to_string(&COLOURS).unwrap());
+    let Some(told) = told(folder.path(), &page) else {
         return;
     };
-    let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
-    assert_eq!(told["width"], WIDTH, "{visit:?}");
+    assert_eq!(told["width"], WIDTH, "{told}");
     assert_eq!(told["height"], HEIGHT);
     let duration = told["duration"].as_f64().unwrap();
     // The movie header counts milliseconds.

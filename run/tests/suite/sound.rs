@@ -5,9 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use vitriol_run::{Film, FilmError};
-use vitriol_tests::browser;
 
-use crate::mp4;
+use crate::{mp4, told};
 
 const SIZE: [u32; 2] = [64, 64];
 const FPS: u32 = 30;
@@ -44,9 +43,7 @@ fn make_film(path: &Path) {
 fn a_browser_hears_it_in_time() {
     let folder = tempfile::tempdir().unwrap();
     make_film(&folder.path().join("film.mp4"));
-    fs::write(
-        folder.path().join("page.html"),
-        r#"<!doctype html><script>
+    let page = r#"<!doctype html><script>
         const told = (value) => console.log("TOLD " + JSON.stringify(value));
         const request = new XMLHttpRequest();
         request.open("GET", "film.mp4");
@@ -71,24 +68,21 @@ fn a_browser_hears_it_in_time() {
           });
         };
         request.send();
-        </script>"#,
-    )
-    .unwrap();
-    let Some(visit) = browser::visit(&folder.path().join("page.html")) else {
+        </script>"#;
+    let Some(told) = told(folder.path(), page) else {
         return;
     };
-    let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
-    assert_eq!(told["rate"], 48_000, "{visit:?}");
+    assert_eq!(told["rate"], 48_000, "{told}");
     // Two seconds: no longer than the picture, and a player may leave out the encoder's 312 samples.
     let length = told["length"].as_u64().unwrap();
-    assert!((96_000 - 960..=96_000).contains(&length), "{visit:?}");
+    assert!((96_000 - 960..=96_000).contains(&length), "{told}");
     // 0.1 is reached after 1.5 samples; a player may keep the encoder's 312 samples, 6.5 ms.
     let begin = told["begin"].as_u64().unwrap();
-    assert!((23_900..24_400).contains(&begin), "{visit:?}");
+    assert!((23_900..24_400).contains(&begin), "{told}");
     let loud = told["loud"].as_array().unwrap();
     for (found, expected) in loud.iter().zip([0.5, 0.0, 0.0, 0.25]) {
         let off = (found.as_f64().unwrap() - expected).abs();
-        assert!(off < 0.01, "{visit:?}");
+        assert!(off < 0.01, "{told}");
     }
 }
 

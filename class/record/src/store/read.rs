@@ -11,15 +11,6 @@ use super::{Store, StoreError};
 use crate::{Cap, Entry, Points, Pseudonym, Score};
 
 impl Store {
-    /// The attempts of a student, in the order of their beginning.
-    ///
-    /// # Errors
-    /// [`StoreError`].
-    pub fn attempts_of(&self, pseudonym: &Pseudonym) -> Result<Vec<Entry>, StoreError> {
-        let condition = "pseudonym = ?1 ORDER BY begun, attempt_id";
-        entries(&self.connection, &self.path, condition, pseudonym.as_str())
-    }
-
     /// The attempt of that identifier.
     ///
     /// # Errors
@@ -46,26 +37,15 @@ impl Store {
 
 /// The attempt of that identifier.
 pub(super) fn entry(connection: &Connection, path: &Path, id: Uuid) -> Result<Entry, StoreError> {
-    let mut found = entries(connection, path, "attempt_id = ?1", &id.to_string())?;
-    found.pop().ok_or_else(|| damaged(path, "an attempt"))
-}
-
-fn entries(
-    connection: &Connection,
-    path: &Path,
-    condition: &str,
-    value: &str,
-) -> Result<Vec<Entry>, StoreError> {
-    let query = format!(
-        "SELECT attempt_id, pseudonym, begun, lesson, source, points, points_max, passed, attempt FROM attempts WHERE {condition}"
-    );
-    let mut query = connection.prepare(&query).of(path)?;
-    let mut rows = query.query([value]).of(path)?;
-    let mut entries = Vec::new();
-    while let Some(row) = rows.next().of(path)? {
-        entries.push(whole(connection, path, row)?);
-    }
-    Ok(entries)
+    let query = "SELECT attempt_id, pseudonym, begun, lesson, source, points, points_max, passed, attempt FROM attempts WHERE attempt_id = ?1";
+    let mut query = connection.prepare(query).of(path)?;
+    let mut rows = query.query([id.to_string()]).of(path)?;
+    let row = rows.next().of(path)?;
+    whole(
+        connection,
+        path,
+        row.ok_or_else(|| damaged(path, "an attempt"))?,
+    )
 }
 
 fn whole(connection: &Connection, path: &Path, row: &Row<'_>) -> Result<Entry, StoreError> {

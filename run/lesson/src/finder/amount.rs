@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+use super::Bench;
+use crate::event::{Cause, Event, Incident, What};
+
 /// Sums over liquid that arrives in portions. Its means are weighted by volume.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Amount {
@@ -59,6 +62,17 @@ impl Amount {
 
     pub fn temperature(&self) -> Option<f64> {
         (self.warm > 0.0).then(|| self.warmth / self.warm)
+    }
+
+    /// The incident that this liquid is.
+    pub fn incident(&self, bench: &Bench, what: What, cause: Cause) -> Event {
+        Event::Incident(Incident {
+            t_s: self.begun,
+            until_s: self.last,
+            what,
+            cause,
+            place_m: bench.place(self.place()),
+        })
     }
 
     /// Whether nothing has been added in the `pause` seconds before `now`.

@@ -236,17 +236,12 @@ impl Flow {
         if let Some((wrong, met_acid)) = self.wrong
             && wrong.volume >= bench.limits.least_pour_m3
         {
-            said.push(Event::Incident(Incident {
-                t_s: wrong.begun,
-                until_s: wrong.last,
-                what: What::WaterIntoAcid {
-                    flask: bench.name(into),
-                    met_acid,
-                    volume_m3: wrong.volume,
-                },
-                cause: cause(),
-                place_m: bench.place(wrong.place()),
-            }));
+            let what = What::WaterIntoAcid {
+                flask: bench.name(into),
+                met_acid,
+                volume_m3: wrong.volume,
+            };
+            said.push(wrong.incident(bench, what, cause()));
         }
         if let Some([t_s, until_s, rate_m3_s]) = self.too_fast {
             said.push(Event::Incident(Incident {

@@ -6,7 +6,7 @@ use vitriol_sim::solver::{Place, Skin as Part};
 use super::amount::{Amount, Bit};
 use super::leaving::Leavings;
 use super::{Bench, PAUSE, Seen};
-use crate::event::{Cause, Event, Incident, Skin, What};
+use crate::event::{Cause, Event, Skin, What};
 
 /// Liquid that touches one part of the body.
 #[derive(Clone, Debug)]
@@ -95,19 +95,14 @@ impl Touches {
                 cause,
                 protected,
             } = touch;
-            said.push(Event::Incident(Incident {
-                t_s: amount.begun,
-                until_s: amount.last,
-                what: What::OnSkin {
-                    skin: part(skin),
-                    volume_m3: amount.volume,
-                    acid: amount.acid(),
-                    temperature_c: amount.temperature(),
-                    protected,
-                },
-                cause,
-                place_m: bench.place(amount.place()),
-            }));
+            let what = What::OnSkin {
+                skin: part(skin),
+                volume_m3: amount.volume,
+                acid: amount.acid(),
+                temperature_c: amount.temperature(),
+                protected,
+            };
+            said.push(amount.incident(bench, what, cause));
         }
     }
 }

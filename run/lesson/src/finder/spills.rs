@@ -5,7 +5,7 @@ use vitriol_sim::solver::{Held, Place};
 use super::amount::{Amount, Bit};
 use super::leaving::Leavings;
 use super::{Bench, PAUSE, Seen};
-use crate::event::{Cause, Event, Incident, Surface, What};
+use crate::event::{Cause, Event, Surface, What};
 
 /// Spills under way, by surface and flask: each flask's liquid is a spill of its own, since it has a cause of its own.
 #[derive(Clone, Debug, Default)]
@@ -62,17 +62,12 @@ impl Spills {
                 let Some((amount, cause)) = open.take_if(over) else {
                     continue;
                 };
-                said.push(Event::Incident(Incident {
-                    t_s: amount.begun,
-                    until_s: amount.last,
-                    what: What::Spilt {
-                        surface,
-                        volume_m3: amount.volume,
-                        acid: amount.acid(),
-                    },
-                    cause,
-                    place_m: bench.place(amount.place()),
-                }));
+                let what = What::Spilt {
+                    surface,
+                    volume_m3: amount.volume,
+                    acid: amount.acid(),
+                };
+                said.push(amount.incident(bench, what, cause));
             }
         }
     }

@@ -5,9 +5,7 @@ use glam::{DVec3, Quat, Vec3};
 use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::{
-    BubbleCount, Bubbling, Came, Census, Held, Moved, Place, Skin as Part, Touching,
-};
+use vitriol_sim::solver::{BubbleCount, Came, Census, Held, Moved, Place, Skin as Part, Touching};
 
 mod incidents;
 
@@ -61,6 +59,14 @@ impl Arranged {
 
     fn tilt(&mut self, flask: usize, degrees: f32) {
         self.poses[flask].orientation = Quat::from_rotation_z(-degrees.to_radians());
+    }
+
+    /// Has bubbles in that flask from now on.
+    fn bubbles(&mut self, flask: usize) {
+        self.held[flask].bubbles.here = BubbleCount {
+            count: 3,
+            radius: 1e-3,
+        };
     }
 
     /// Takes `count` observations of the census that `change` makes, with the step's impacts and breaks in the first.

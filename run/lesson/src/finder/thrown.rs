@@ -8,7 +8,7 @@ use super::amount::{Amount, Bit};
 use super::flows::Flows;
 use super::leaving::{LeavingCause, Leavings};
 use super::{Bench, PAUSE, Seen};
-use crate::event::{Cause, Event, Incident, What};
+use crate::event::{Cause, Event, What};
 
 /// Liquid that boiling throws out, one entry a flask.
 #[derive(Clone, Debug, Default)]
@@ -89,17 +89,12 @@ impl Thrown {
             if !harms {
                 continue;
             }
-            said.push(Event::Incident(Incident {
-                t_s: amount.begun,
-                until_s: amount.last,
-                what: What::BoiledOver {
-                    flask: bench.name(flask),
-                    volume_m3: amount.volume,
-                    acid: amount.acid(),
-                },
-                cause,
-                place_m: bench.place(amount.place()),
-            }));
+            let what = What::BoiledOver {
+                flask: bench.name(flask),
+                volume_m3: amount.volume,
+                acid: amount.acid(),
+            };
+            said.push(amount.incident(bench, what, cause));
         }
     }
 }

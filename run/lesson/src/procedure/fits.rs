@@ -1,5 +1,7 @@
 //! Checks that a lesson asks for nothing that its scene does not have.
 
+use vitriol_sim::scene::ToolKind;
+
 use super::condition::{Condition, Keep};
 use super::error::{Problems, listed};
 use super::sight::SceneFacts;
@@ -104,19 +106,21 @@ impl Condition {
                 fit.flask(&named("flask"), &it.flask);
                 fit.has(field, facts.heat, |it| &it.heat);
             }
-            Self::Goggles(_) => fit.has(field, facts.goggles, |it| &it.goggles),
-            Self::Gloves(_) => fit.has(field, facts.gloves, |it| &it.gloves),
-            Self::Sash(_) => fit.has(field, facts.sash, |it| &it.sash),
+            Self::Goggles(_) => fit.has(field, facts.has(ToolKind::Goggles), |it| &it.goggles),
+            Self::Gloves(_) => fit.has(field, facts.has(ToolKind::Gloves), |it| &it.gloves),
+            Self::Sash(_) => fit.has(field, facts.has(ToolKind::Sash), |it| &it.sash),
             Self::Stirred(it) => {
                 fit.flask(&named("flask"), &it.flask);
-                fit.has(field, facts.rod, |it| &it.rod);
+                fit.has(field, facts.has(ToolKind::Rod), |it| &it.rod);
             }
             Self::Measured(it) => {
                 fit.flask(&named("flask"), &it.flask);
-                fit.has(field, facts.thermometer, |it| &it.thermometer);
+                let there = facts.has(ToolKind::Thermometer);
+                fit.has(field, there, |it| &it.thermometer);
             }
-            Self::Wiped(_) => fit.has(field, facts.cloth, |it| &it.cloth),
-            Self::Rinsed(_) => fit.has(field, facts.rinsing, |it| &it.rinsing),
+            Self::Wiped(_) => fit.has(field, facts.has(ToolKind::Cloth), |it| &it.cloth),
+            // Bare hands are rinsed as gloves are; where there are no gloves to take off, it is not measured.
+            Self::Rinsed(_) => fit.has(field, facts.has(ToolKind::Gloves), |it| &it.rinsing),
             Self::Answered(_) => {}
         }
     }
@@ -133,9 +137,9 @@ impl Keep {
                 fit.flask(&format!("{field}.cool.flask"), &it.flask);
                 fit.has(field, facts.heat, |it| &it.heat);
             }
-            Self::Goggles => fit.has(field, facts.goggles, |it| &it.goggles),
-            Self::Gloves => fit.has(field, facts.gloves, |it| &it.gloves),
-            Self::Sash(_) => fit.has(field, facts.sash, |it| &it.sash),
+            Self::Goggles => fit.has(field, facts.has(ToolKind::Goggles), |it| &it.goggles),
+            Self::Gloves => fit.has(field, facts.has(ToolKind::Gloves), |it| &it.gloves),
+            Self::Sash(_) => fit.has(field, facts.has(ToolKind::Sash), |it| &it.sash),
         }
     }
 }

@@ -80,20 +80,8 @@ pub struct SceneFacts {
     pub liquid_m3: f64,
     /// Whether it models heat.
     pub heat: bool,
-    /// Whether there are goggles that can be put on and taken off.
-    pub goggles: bool,
-    /// Whether there are such gloves.
-    pub gloves: bool,
-    /// Whether there is a hood with a sash.
-    pub sash: bool,
-    /// Whether there is a stirring rod.
-    pub rod: bool,
-    /// Whether there is a thermometer.
-    pub thermometer: bool,
-    /// Whether there is a cloth that takes up spilt liquid.
-    pub cloth: bool,
-    /// Whether water that comes to a hand is measured, as from a wash bottle.
-    pub rinsing: bool,
+    /// Its tools.
+    pub tools: Vec<ToolKind>,
 }
 
 impl SceneFacts {
@@ -103,21 +91,18 @@ impl SceneFacts {
             name: flask.name.clone(),
             lifted: !flask.fixed,
         });
-        let has = |kind| scene.tool(kind).is_some();
         let of_scene: f64 = scene.liquids.iter().map(|liquid| liquid.volume).sum();
         Self {
             name: name.to_owned(),
             flasks: flasks.collect(),
             liquid_m3: scene.scale.length_scale.powi(3) * of_scene,
             heat: scene.models(Feature::Heat),
-            goggles: has(ToolKind::Goggles),
-            gloves: has(ToolKind::Gloves),
-            sash: has(ToolKind::Sash),
-            rod: has(ToolKind::Rod),
-            thermometer: has(ToolKind::Thermometer),
-            cloth: has(ToolKind::Cloth),
-            // Bare hands are rinsed as gloves are; where there are no gloves to take off, it is not measured.
-            rinsing: has(ToolKind::Gloves),
+            tools: scene.tools.iter().map(|tool| tool.kind).collect(),
         }
+    }
+
+    /// Whether there is that tool.
+    pub(super) fn has(&self, kind: ToolKind) -> bool {
+        self.tools.contains(&kind)
     }
 }

@@ -143,6 +143,10 @@ impl Run {
         steps.iter().find(|step| step.id == id).unwrap().status
     }
 
+    fn both(&self) -> [Status; 2] {
+        ["one", "two"].map(|id| self.status(id))
+    }
+
     fn line(&self, id: &str) -> VerdictLine {
         let lines = self.procedure.verdict().lines;
         lines.into_iter().find(|line| line.id == id).unwrap()

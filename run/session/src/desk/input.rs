@@ -2,6 +2,8 @@
 
 use std::f32::consts::{PI, TAU};
 
+use winit::event::MouseButton;
+
 use super::hands::{Controls, SLOW};
 use super::view::{Turns, Viewpoint};
 
@@ -44,17 +46,6 @@ pub struct Axes {
     pub tilt: f32,
     /// The eye goes to the right about the bench, and rises.
     pub turn: [f32; 2],
-}
-
-/// A button of the mouse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MouseButton {
-    /// The left one, for most.
-    Main,
-    /// The right one, for most.
-    Secondary,
-    /// The wheel.
-    Middle,
 }
 
 /// A key that moves hands or view.
@@ -157,20 +148,21 @@ impl Inputs {
             }
             Input::Wheel(notches) => self.new.wheel += notches,
             Input::Button { button, down } => match (button, down) {
-                (MouseButton::Main, true) if self.is_held(DeskKey::Orbit) => self.turning = true,
-                (MouseButton::Main, true) => self.press(),
-                (MouseButton::Main, false) => {
+                (MouseButton::Left, true) if self.is_held(DeskKey::Orbit) => self.turning = true,
+                (MouseButton::Left, true) => self.press(),
+                (MouseButton::Left, false) => {
                     if !std::mem::take(&mut self.turning) {
                         self.release();
                     }
                 }
-                (MouseButton::Secondary, down) => self.tilting = down.then(|| self.place()),
+                (MouseButton::Right, down) => self.tilting = down.then(|| self.place()),
                 (MouseButton::Middle, true) => self.middle = Some(0.0),
                 (MouseButton::Middle, false) => {
                     if self.middle.take().is_some_and(|way| way < CLICKS) {
                         self.press_key(DeskKey::OtherHand);
                     }
                 }
+                _ => {}
             },
             Input::Key { key, down: true } => {
                 self.keys.push(key);
@@ -316,7 +308,7 @@ mod tests {
     use super::*;
 
     fn click(inputs: &mut Inputs, down: bool) {
-        let button = MouseButton::Main;
+        let button = MouseButton::Left;
         inputs.take(Input::Button { button, down });
     }
 
@@ -395,7 +387,7 @@ mod tests {
         inputs.take(Input::Pointer([0.5, 0.5]));
         click(&mut inputs, true);
         inputs.controls(&Viewpoint::default());
-        let button = MouseButton::Secondary;
+        let button = MouseButton::Right;
         inputs.take(Input::Button { button, down: true });
         inputs.take(Input::Pointer([0.75, 0.4]));
         let controls = inputs.controls(&Viewpoint::default());

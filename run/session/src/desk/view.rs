@@ -243,6 +243,18 @@ mod tests {
         (scene_from_panel(), SIZE)
     }
 
+    /// A place of the panel, -1 to 1 to the right and up from its middle.
+    fn on_panel(x: f32, y: f32) -> Vec3 {
+        let at = Vec3::new(0.5 * x * SIZE[0], 0.5 * y * SIZE[1], 0.0);
+        scene_from_panel().transform_point(at)
+    }
+
+    fn turns(ask: impl FnOnce(&mut Turns)) -> Turns {
+        let mut turns = Turns::default();
+        ask(&mut turns);
+        turns
+    }
+
     /// Two seconds in which nothing more is asked for, after `turns`.
     fn gone(view: &mut Viewpoint, turns: Turns, aspect: f32) {
         view.advance(&turns, panel(), aspect, 0.02);
@@ -268,16 +280,12 @@ mod tests {
     fn a_ray_goes_where_it_is_seen() {
         let mut view = Viewpoint::default();
         view.advance(&Turns::default(), panel(), WIDE, 0.02);
-        let corner = |x: f32, y: f32| {
-            let at = Vec3::new(0.5 * x * SIZE[0], 0.5 * y * SIZE[1], 0.0);
-            scene_from_panel().transform_point(at)
-        };
         for at in [
             Vec3::new(-0.12, 0.75, -0.35),
             Vec3::new(0.25, 0.85, -0.35),
-            corner(-1.0, 1.0),
-            corner(1.0, 1.0),
-            corner(1.0, -1.0),
+            on_panel(-1.0, 1.0),
+            on_panel(1.0, 1.0),
+            on_panel(1.0, -1.0),
         ] {
             let [x, y] = seen(&view, at);
             assert!(
@@ -300,14 +308,9 @@ mod tests {
     #[test]
     fn the_eye_stays_where_a_student_can_be() {
         let mut view = Viewpoint::default();
-        let turned = |yaw, rise, zoom| Turns {
-            yaw,
-            rise,
-            zoom,
-            ..Turns::default()
-        };
         for (yaw, rise, zoom) in [(9.0, 9.0, 9.0), (-9.0, -9.0, -9.0), (0.3, 0.2, 0.5)] {
-            gone(&mut view, turned(yaw, rise, zoom), WIDE);
+            let turned = turns(|it| (it.yaw, it.rise, it.zoom) = (yaw, rise, zoom));
+            gone(&mut view, turned, WIDE);
             let eye = view.pose().position;
             assert!((0.79..1.66).contains(&eye.y), "{eye}");
             let aside = (eye.x - MIDDLE.x).atan2(eye.z - MIDDLE.z);
@@ -330,20 +333,10 @@ mod tests {
     #[test]
     fn other_views_are_left_as_they_were_entered() {
         let mut view = Viewpoint::default();
-        let orbit = Turns {
-            yaw: 0.3,
-            ..Turns::default()
-        };
-        gone(&mut view, orbit, WIDE);
+        gone(&mut view, turns(|it| it.yaw = 0.3), WIDE);
         let before = view.pose().position;
-        let side = Turns {
-            side: true,
-            ..Turns::default()
-        };
-        let to_panel = Turns {
-            panel: true,
-            ..Turns::default()
-        };
+        let side = turns(|it| it.side = true);
+        let to_panel = turns(|it| it.panel = true);
         gone(&mut view, side, WIDE);
         assert!((view.pose().position - before).length() > 0.3);
         gone(&mut view, side, WIDE);
@@ -351,11 +344,7 @@ mod tests {
         gone(&mut view, to_panel, WIDE);
         gone(&mut view, to_panel, WIDE);
         assert!((view.pose().position - before).length() < 1e-4);
-        let home = Turns {
-            home: true,
-            ..Turns::default()
-        };
-        gone(&mut view, home, WIDE);
+        gone(&mut view, turns(|it| it.home = true), WIDE);
         let first = Viewpoint::default().pose().position;
         assert!((view.pose().position - first).length() < 1e-4);
     }
@@ -368,20 +357,9 @@ mod tests {
             let angle = |view: &Viewpoint| (view.fov().up - view.fov().down).to_degrees();
             assert!((angle(&view) - wanted).abs() < 1e-3, "{}", angle(&view));
             let other = if wanted > 50.0 { 0.5 } else { -0.5 };
-            gone(
-                &mut view,
-                Turns {
-                    zoom: other,
-                    ..Turns::default()
-                },
-                WIDE,
-            );
+            gone(&mut view, turns(|it| it.zoom = other), WIDE);
             assert!((angle(&view) - wanted).abs() > 5.0, "{}", angle(&view));
-            let home = Turns {
-                home: true,
-                ..Turns::default()
-            };
-            gone(&mut view, home, WIDE);
+            gone(&mut view, turns(|it| it.home = true), WIDE);
             assert!((angle(&view) - wanted).abs() < 1e-3, "{}", angle(&view));
         }
     }
@@ -391,17 +369,10 @@ mod tests {
     fn the_panel_fills_its_view() {
         for aspect in [WIDE, 0.9] {
             let mut view = Viewpoint::default();
-            let turns = Turns {
-                panel: true,
-                ..Turns::default()
-            };
-            gone(&mut view, turns, aspect);
-            let corner = |x: f32, y: f32| {
-                let at = Vec3::new(0.5 * x * SIZE[0], 0.5 * y * SIZE[1], 0.0);
-                seen(&view, scene_from_panel().transform_point(at))
-            };
-            let (left, right) = (corner(-1.0, 0.0)[0], corner(1.0, 0.0)[0]);
-            let (upper, lower) = (corner(0.0, 1.0)[1], corner(0.0, -1.0)[1]);
+            gone(&mut view, turns(|it| it.panel = true), aspect);
+            let side = |x: f32, y: f32| seen(&view, on_panel(x, y));
+            let (left, right) = (side(-1.0, 0.0)[0], side(1.0, 0.0)[0]);
+            let (upper, lower) = (side(0.0, 1.0)[1], side(0.0, -1.0)[1]);
             let largest = (right - left).max(lower - upper);
             // It leans back, so that its two halves are not equally far.
             assert!((largest - FILLS).abs() < 0.03, "{largest}");

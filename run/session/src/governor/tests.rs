@@ -12,6 +12,15 @@ fn ladders() -> [Vec<f64>; 2] {
     [vec![1.0, 0.8, 0.6, 0.4, 0.25], vec![1.0, 0.81, 0.64, 0.55]]
 }
 
+/// A frame whose parts took these shares of the period.
+fn taken(shares: [f64; 2]) -> FrameTimes {
+    FrameTimes {
+        times: shares.map(|share| share * PERIOD),
+        period: PERIOD,
+        since: 1.0 / 90.0,
+    }
+}
+
 /// What a run was like.
 #[derive(Debug, Default)]
 struct Run {
@@ -46,12 +55,7 @@ fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
         if level != governor.level {
             continue;
         }
-        let taken = FrameTimes {
-            times: shares.map(|share| share * PERIOD),
-            period: PERIOD,
-            since: 1.0 / 90.0,
-        };
-        if let Some(level) = governor.take(&taken, false) {
+        if let Some(level) = governor.take(&taken(shares), false) {
             run.changes.push((time, level));
         }
     }
@@ -207,11 +211,7 @@ fn the_dear_part_pays() {
 fn room_is_what_the_frames_leave() {
     let mut governor = Governor::new(ladders());
     assert!(!governor.has_room_for(0.0, PERIOD));
-    let taken = FrameTimes {
-        times: [0.5, 0.2].map(|part| part * PERIOD),
-        period: PERIOD,
-        since: 1.0 / 90.0,
-    };
+    let taken = taken([0.5, 0.2]);
     assert!((0..YOUNG).all(|_| governor.take(&taken, false).is_none()));
     assert!(governor.has_room_for(0.14 * PERIOD, PERIOD));
     assert!(!governor.has_room_for(0.16 * PERIOD, PERIOD));
@@ -222,11 +222,7 @@ fn room_is_what_the_frames_leave() {
 fn only_what_the_device_misses_is_its_fault() {
     for (share, stepped) in [(0.3, None), (0.7, Some([1, 0]))] {
         let mut governor = Governor::new(ladders());
-        let taken = FrameTimes {
-            times: [0.9, 0.1].map(|part| part * share * PERIOD),
-            period: PERIOD,
-            since: 1.0 / 90.0,
-        };
+        let taken = taken([0.9, 0.1].map(|part| part * share));
         // Past its start.
         assert!((0..YOUNG).all(|_| governor.take(&taken, false).is_none()));
         assert_eq!(governor.take(&taken, true), stepped);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::text::{Galley, LayoutJob};
 use egui::{Color32, ColorImage, Context, FontId, Pos2, RawInput};
 
-use crate::panel::{SAID, style};
+use crate::panel::{SAID, context};
 
 /// Height of text as a share of the window's width and of its height, and the least height, pixels of a screen of the usual density. Our
 /// choice: 17 pixels in a window of 800 × 500, 26 in one of 1366 × 768, so that some ninety letters have room in a line. A screen of high
@@ -28,9 +28,10 @@ pub struct Letters {
 impl Letters {
     /// Text `scale` times as high as usual.
     pub fn new(scale: f32) -> Self {
-        let context = Context::default();
-        style(&context);
-        Self { context, scale }
+        Self {
+            context: context(),
+            scale,
+        }
     }
 
     /// Height of text in a window of that size, pixels, on a screen with so many pixels a pixel of the usual density.

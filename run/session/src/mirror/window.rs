@@ -410,24 +410,18 @@ impl Face {
         let Some((frame, _)) = &self.frame else {
             return Ok(());
         };
+        let over = || Over::new(self.asked.scale);
         match what {
-            Say::Title(title) => frame.set_title(&title),
-            Say::Picture(shrunk) => {
-                self.shown = Some((shrunk.pixels()?, shrunk.extent));
-                frame.request_redraw();
+            Say::Title(title) => {
+                frame.set_title(&title);
+                return Ok(());
             }
-            Say::Strip(said) => {
-                let over = || Over::new(self.asked.scale);
-                self.over.get_or_insert_with(over).strip(said);
-                frame.request_redraw();
-            }
-            Say::Label(said) => {
-                let over = || Over::new(self.asked.scale);
-                self.over.get_or_insert_with(over).label(said);
-                frame.request_redraw();
-            }
-            Say::End => {}
+            Say::Picture(shrunk) => self.shown = Some((shrunk.pixels()?, shrunk.extent)),
+            Say::Strip(said) => self.over.get_or_insert_with(over).strip(said),
+            Say::Label(said) => self.over.get_or_insert_with(over).label(said),
+            Say::End => return Ok(()),
         }
+        frame.request_redraw();
         Ok(())
     }
 

@@ -29,31 +29,25 @@ impl Aimed {
 mod tests {
     use std::collections::BTreeMap;
 
-    use egui::{Context, Event, Pos2, RawInput, pos2, vec2};
+    use egui::{Event, pos2};
 
     use super::*;
     use crate::info::{Info, Shown};
-    use crate::panel::{PANEL, view};
+    use crate::panel::{input, view};
     use vitriol_run::texts::Texts;
 
     /// The buttons of a panel that shows this session, each with whether it is held: a pointer goes down its columns and takes in whatever
     /// it is at.
     fn buttons(info: &Info) -> BTreeMap<String, bool> {
         let words = Texts::english().unwrap().panel;
-        let context = Context::default();
-        view::style(&context);
-        let [width, height] = PANEL.map(|side| side as f32);
+        let context = view::context();
         let mut found = BTreeMap::new();
         for x in [575.0, 740.0, 900.0] {
             for y in (10..864).step_by(16) {
                 let at = pos2(x, y as f32);
                 // What is under a pointer is known from where it was laid out before.
                 for pass in 0..2 {
-                    let input = RawInput {
-                        screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(width, height))),
-                        events: vec![Event::PointerMoved(at)],
-                        ..RawInput::default()
-                    };
+                    let input = input(vec![Event::PointerMoved(at)]);
                     let mut aimed = None;
                     let _ = context.run(input, |context| {
                         aimed = view::show(context, (info, &words), None, None).aimed;

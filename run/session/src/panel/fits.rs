@@ -6,7 +6,7 @@ use vitriol_lesson::{Language, Lesson};
 
 use super::PANEL;
 use super::lesson::label;
-use super::view::{BESIDE, scene_text, style};
+use super::view::{BESIDE, scene_text};
 use vitriol_run::choices::{CHOICES, on_panel};
 use vitriol_run::texts::{PanelTexts, Texts};
 
@@ -21,8 +21,7 @@ const RING: f32 = 2.0 * (134.0 - 3.0);
 const PADDING: f32 = 4.0;
 
 fn context() -> Context {
-    let context = Context::default();
-    style(&context);
+    let context = super::context();
     let _ = context.run(egui::RawInput::default(), |_| {});
     context
 }

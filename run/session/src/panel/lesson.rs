@@ -5,13 +5,10 @@ use vitriol_run::Action;
 
 use super::aimed::Aimed;
 use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
-use super::view::Seen;
+use super::view::{LOW, Seen};
 use crate::decision::Decision;
 use crate::info::{Mark, Shown};
 use crate::menu;
-
-/// Height of an answer's button, pixels: that of the other buttons.
-const BUTTON: f32 = 46.0;
 
 /// What is to be done, its steps where they are listed, why something failed or else how to do it, and the answers to its question.
 /// `seen` takes in which answer is pointed at and pressed.
@@ -26,7 +23,7 @@ pub fn told(ui: &mut Ui, shown: &Shown, seen: &mut Seen) {
         ui.label(RichText::new(line).color(colour));
     }
     for (answer, text, key) in answers(shown) {
-        let size = vec2(ui.available_width(), BUTTON);
+        let size = vec2(ui.available_width(), LOW);
         let text = label(key, text);
         let button = ui.add(Button::new(text.as_str()).min_size(size));
         seen.aimed = Aimed::at(&button, &text, false).or(seen.aimed.take());
@@ -87,10 +84,10 @@ pub fn asks(shown: &Shown) -> impl Iterator<Item = (String, bool, Decision)> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
-    use super::super::{PANEL, view};
+    use super::super::{PANEL, input, view};
     use super::*;
     use crate::info::{ActLine, FlaskLine, Info};
-    use egui::{Context, Pos2, RawInput, Rect, Shape, Vec2};
+    use egui::{Pos2, RawInput, Rect, Shape, Vec2};
     use vitriol_lesson::{Language, Texts};
 
     /// Pixels of the panel's edge that no text comes to.
@@ -118,17 +115,11 @@ mod tests {
     /// Where each text is on a panel that shows this session.
     fn texts(info: &Info) -> Vec<(String, Rect)> {
         let words = vitriol_run::texts::Texts::english().unwrap().panel;
-        let context = Context::default();
-        view::style(&context);
-        let [width, height] = PANEL.map(|side| side as f32);
-        let input = || RawInput {
-            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
-            ..RawInput::default()
-        };
+        let context = view::context();
         // The height of a strip is known from its second frame on.
         let mut shapes = Vec::new();
         for _ in 0..2 {
-            let output = context.run(input(), |context| {
+            let output = context.run(input(Vec::new()), |context| {
                 view::show(context, (info, &words), None, None);
             });
             shapes = output.shapes;
@@ -172,13 +163,13 @@ mod tests {
             ]
             .map(|(mark, count)| (mark, lines(count)))
             .to_vec(),
-            note: Some(texts.more_steps(45)),
+            note: Some(texts.panel.more.fill(&[("number", "45")])),
             hint: Some(lines(3)),
             failed: None,
             acts: vec![
-                act(Action::Hint(None), texts.ask_hint()),
-                act(Action::Skip(None), texts.skip_step()),
-                act(Action::Finish, texts.finish_lesson()),
+                act(Action::Hint(None), texts.panel.hint.to_string()),
+                act(Action::Skip(None), texts.panel.skip.to_string()),
+                act(Action::Finish, texts.panel.finish.to_string()),
             ],
             answers: Vec::new(),
             quiet: false,
@@ -250,8 +241,7 @@ mod tests {
 
     #[test]
     fn each_sign_can_be_shown() {
-        let context = Context::default();
-        view::style(&context);
+        let context = view::context();
         let _ = context.run(RawInput::default(), |_| {});
         let font = egui::FontId::proportional(TEXT);
         for sign in ['✔', '✖', '▶', '•'] {

@@ -22,7 +22,7 @@ use vitriol_run::texts::PanelTexts;
 
 const HEADING: f32 = 34.0;
 /// Height of a button with one line of text, pixels.
-const LOW: f32 = 46.0;
+pub(super) const LOW: f32 = 46.0;
 /// Height of a button with two lines.
 const TALL: f32 = 76.0;
 /// Scenes' buttons beside each other: so nine of them have room where an instructor's longest message stands above them.
@@ -34,8 +34,9 @@ const RANGE: [f32; 2] = [0.0, 180.0];
 /// Chinese characters, which egui's own fonts lack: see `run/session/fonts`.
 const HAN: &[u8] = include_bytes!("../../fonts/han.ttf");
 
-/// Sets fonts, sizes and colours of a context.
-pub fn style(context: &Context) {
+/// A context with the panel's fonts, sizes and colours.
+pub fn context() -> Context {
+    let context = Context::default();
     let behind = InsertFontFamily {
         family: FontFamily::Proportional,
         priority: FontPriority::Lowest,
@@ -57,6 +58,7 @@ pub fn style(context: &Context) {
         // No animations: the panel is drawn anew for each of their frames.
         style.animation_time = 0.0;
     });
+    context
 }
 
 /// What a hand does on the panel.
@@ -192,8 +194,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
     let ends = (info.ends).then(|| words.ends(&end_key(info)));
     lines(ui, [ends], WARNING);
     let size = vec2(0.5 * ui.available_width(), LOW);
-    let key = menu::SUMMARY.to_ascii_uppercase();
-    let text = format!("{key}   {}", happened.back);
+    let text = lesson::label(menu::SUMMARY, &happened.back);
     let button = ui.add(Button::new(text.as_str()).min_size(size));
     seen.aimed = Aimed::at(&button, &text, false).or(seen.aimed.take());
     if button.clicked() {
@@ -363,22 +364,21 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
             }
         });
     }
-    let key = |key: char| key.to_ascii_uppercase();
-    let start = format!("{}   {}", key(menu::START), words.start);
+    let start = lesson::label(menu::START, &words.start);
     button(ui, (start, LOW), false, Decision::Act(Action::Start(None)));
     if offers {
         // Always in its place, so that the others stay in theirs.
-        let other = format!("{}   {}", key(menu::TOGGLE), words.other_order);
+        let other = lesson::label(menu::TOGGLE, &words.other_order);
         let on = choices::counterpart(&info.scene).is_some();
         ui.add_enabled_ui(on, |ui| button(ui, (other, LOW), false, Decision::Toggle));
     }
     ui.add_space(10.0);
     if !info.pointer {
-        let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
+        let recentre = lesson::label(menu::RECENTRE, &words.recentre);
         button(ui, (recentre, LOW), false, Decision::Recentre);
     }
     if !shown.is_some_and(|it| it.quiet) {
-        let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
+        let summary = lesson::label(menu::SUMMARY, &words.happened);
         button(ui, (summary, LOW), false, Decision::Summary);
     }
     state(ui, info, words);
@@ -401,8 +401,7 @@ mod tests {
     /// As an eye over the scene's origin sees it, in each corner of the panel and in its middle.
     #[test]
     fn lines_are_seen_at_one_degree_and_a_fifth() {
-        let context = Context::default();
-        style(&context);
+        let context = context();
         let _ = context.run(egui::RawInput::default(), |_| {});
         let font = FontId::proportional(TEXT);
         let pixels = context.fonts_mut(|fonts| fonts.row_height(&font));
@@ -441,9 +440,7 @@ mod tests {
 
     #[test]
     fn text_stands_out_from_its_ground() {
-        let context = Context::default();
-        style(&context);
-        let visuals = context.style().visuals.clone();
+        let visuals = context().style().visuals.clone();
         let [r, g, b, _] = GROUND.map(|share| (255.0 * share).round() as u8);
         let ground = Color32::from_rgb(r, g, b);
         let mut pairs = [WHITE, FAINT, WARNING, RECORDING, GOOD]

@@ -27,24 +27,21 @@ pub(super) struct Benches {
     again: Option<(Plan, Action)>,
 }
 
-/// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
-struct Coming {
+/// A bench that is not in use yet.
+pub(super) struct Next<T> {
     plan: Plan,
     /// What its picture is made for.
     eyes: Eyes,
-    thread: JoinHandle<Result<(Workbench, World), Failure>>,
     /// The action that brings it up.
     action: Action,
+    made: T,
 }
 
-/// A bench that is ready and not in use yet.
-pub(super) struct Built {
-    bench: Workbench,
-    world: World,
-    plan: Plan,
-    eyes: Eyes,
-    action: Action,
-}
+/// One in the making, on a thread of its own: compiling its passes takes longer than a frame.
+type Coming = Next<JoinHandle<Result<(Workbench, World), Failure>>>;
+
+/// One that is ready.
+pub(super) type Built = Next<(Workbench, World)>;
 
 impl Built {
     /// Its scene.
@@ -97,8 +94,8 @@ impl Benches {
         self.coming = Some(Coming {
             plan,
             eyes: self.eyes.clone(),
-            thread: std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of)),
             action,
+            made: std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of)),
         });
     }
 
@@ -111,26 +108,24 @@ impl Benches {
     /// Whether a bench is ready to follow the one in use.
     pub fn is_built(&self) -> bool {
         let coming = self.coming.as_ref();
-        coming.is_some_and(|coming| coming.thread.is_finished())
+        coming.is_some_and(|coming| coming.made.is_finished())
     }
 
     /// The bench that was being built, if it is ready and was built without a failure; the one in use stays. Does not wait.
     pub fn take_built(&mut self, gpu: &Gpu) -> Option<Built> {
-        let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
-        let Coming {
+        let Next {
             plan,
             eyes,
-            thread,
             action,
-        } = coming;
-        let made = thread.join();
+            made,
+        } = self.coming.take_if(|coming| coming.made.is_finished())?;
+        let made = made.join();
         match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
-            Ok((bench, world)) => Some(Built {
-                bench,
-                world,
+            Ok(made) => Some(Next {
                 plan,
                 eyes,
                 action,
+                made,
             }),
             Err(_) if gpu.is_lost() => {
                 self.again = Some((plan, action));
@@ -153,11 +148,12 @@ impl Benches {
     /// Puts that bench in place of the one in use, and gives its world and the action that brings that up. Waits until the old picture
     /// has given back its memory.
     pub fn put(&mut self, built: Built, _: &NoFrameOpen) -> (Action, World) {
-        self.current = built.bench;
+        let (bench, world) = built.made;
+        self.current = bench;
         // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
         // these.
         self.eyes = built.eyes;
-        (built.action, built.world)
+        (built.action, world)
     }
 
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come

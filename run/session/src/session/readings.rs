@@ -68,17 +68,13 @@ impl Readings {
     pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
         let acid = has_acid(scene);
         let line = |index: usize, name: &String| {
-            let reading = self.last.get(index);
-            let reading = reading.filter(|reading| reading.temperature.is_some());
+            let held = self.last.get(index);
+            let held = held.and_then(|held| Some((held.temperature?, held.acid)));
             FlaskLine {
                 name: name.clone(),
                 broken: is_broken(index),
-                temperature: reading
-                    .and_then(|reading| reading.temperature)
-                    .map(|celsius| celsius.round() as i32),
-                acid: reading
-                    .filter(|_| acid)
-                    .map(|reading| (100.0 * reading.acid).round() as i32),
+                temperature: held.map(|(celsius, _)| celsius.round() as i32),
+                acid: (held.filter(|_| acid)).map(|(_, acid)| (100.0 * acid).round() as i32),
             }
         };
         let upright = |flask: &Flask| (flask.stage_from_flask.orientation * Vec3::Y).y > 0.0;

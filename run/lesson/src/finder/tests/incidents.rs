@@ -2,16 +2,14 @@
 
 use super::*;
 
+const BROKEN: Break = Break {
+    flask: 0,
+    stage_from_flask: Pose::IDENTITY,
+};
+
 /// A spill has its volume, surface and place, and as its cause what was under way at the flask that it came from.
 #[test]
 fn a_spill_has_a_cause() {
-    let bubbling = Bubbling {
-        here: BubbleCount {
-            count: 3,
-            radius: 1e-3,
-        },
-        ..Bubbling::default()
-    };
     type Arrange = (f32, bool, bool, Cause);
     let flask = || "source".to_owned();
     let cases: [Arrange; 4] = [
@@ -25,7 +23,7 @@ fn a_spill_has_a_cause() {
         arranged.tilt(0, degrees);
         arranged.hands[0] = in_hand;
         if bubbles {
-            arranged.held[0].bubbles = bubbling;
+            arranged.bubbles(0);
             arranged.held[0].hottest = Some(104.0);
         }
         arranged.looks(10, &|mut census| {
@@ -76,10 +74,7 @@ fn what_sprays_out_boils_over() {
     arranged.tilt(0, 80.0);
     arranged.pours(20, BIT, 0.0, Place::Flask(1));
     // Bubbles of air throw drops as well, which is no boiling over.
-    arranged.held[1].bubbles.here = BubbleCount {
-        count: 3,
-        radius: 1e-3,
-    };
+    arranged.bubbles(1);
     arranged.sprayed[1] += 1e-6;
     arranged.looks(20, &|census| census);
     arranged.held[1].hottest = Some(140.0);
@@ -96,12 +91,8 @@ fn what_sprays_out_boils_over() {
     });
     let (flask, volume, incident) = thrown.unwrap();
     assert!(flask == "target" && near(volume, 0.1e-6), "{incident:?}");
-    assert_eq!(
-        incident.cause,
-        Cause::Mixing {
-            flask: "target".into()
-        }
-    );
+    let flask = "target".into();
+    assert_eq!(incident.cause, Cause::Mixing { flask });
     // The incident is at the rim.
     let rim = arranged.finder.bench.rim(&arranged.poses[1], 1) + arranged.finder.bench.origin;
     assert!(
@@ -131,10 +122,7 @@ fn drops_boil_over_where_they_harm() {
         arranged.held[1].temperature = Some(celsius);
         // One particle boils.
         arranged.held[1].hottest = Some(140.0);
-        arranged.held[1].bubbles.here = BubbleCount {
-            count: 3,
-            radius: 1e-3,
-        };
+        arranged.bubbles(1);
         arranged.looks(20, &|census| census);
         for _ in 0..10 {
             arranged.sprayed[1] += 0.1 * thrown;
@@ -167,10 +155,7 @@ fn layers_boil_over_because_they_were_moved() {
         let file = Scene::builtin(scene).unwrap();
         arranged.finder = Finder::new(scene, &file, Limits::default());
         arranged.held[0].hottest = Some(140.0);
-        arranged.held[0].bubbles.here = BubbleCount {
-            count: 3,
-            radius: 1e-3,
-        };
+        arranged.bubbles(0);
         for held in in_hand {
             arranged.hands[0] = held;
             arranged.looks(20, &|census| census);
@@ -288,12 +273,8 @@ fn what_comes_to_somebody() {
         near(*acid, 0.98) && near(*warm, 30.0) && near(*hot, 90.0),
         "{touched:?}"
     );
-    assert_eq!(
-        *from,
-        Cause::Pouring {
-            from: "source".into()
-        }
-    );
+    let source = "source".into();
+    assert_eq!(*from, Cause::Pouring { from: source });
     assert_eq!(*unknown, Cause::Unknown);
 }
 
@@ -346,17 +327,13 @@ fn glass_that_is_dropped() {
         speed,
         position: Vec3::new(0.0, 0.0, 0.3),
     };
-    let broken = Break {
-        flask: 0,
-        stage_from_flask: Pose::IDENTITY,
-    };
     let mut arranged = Arranged::new([0.98, 0.0]);
     let none = |census: Census| census;
     arranged.looks_with(5, (&[blow(2.0, None)], &[]), &none);
     arranged.hands[0] = false;
     arranged.looks_with(40, (&[blow(2.0, Some(1))], &[]), &none);
     arranged.looks_with(1, (&[blow(3.5, None)], &[]), &none);
-    arranged.looks_with(20, (&[blow(1.5, None)], &[broken]), &none);
+    arranged.looks_with(20, (&[blow(1.5, None)], &[BROKEN]), &none);
     arranged.looks_with(1, (&[blow(0.5, None)], &[]), &none);
     let (_, incidents) = arranged.end();
     let [incident] = &incidents[..] else {
@@ -371,12 +348,8 @@ fn glass_that_is_dropped() {
         panic!("{incident:?}");
     };
     assert_eq!((flask.as_str(), *speed_m_s, *broke), ("source", 3.5, true));
-    assert_eq!(
-        incident.cause,
-        Cause::LettingGo {
-            flask: "source".into()
-        }
-    );
+    let flask = "source".into();
+    assert_eq!(incident.cause, Cause::LettingGo { flask });
     assert!(near(incident.t_s, 0.47), "{incident:?}");
 }
 
@@ -391,10 +364,6 @@ fn a_fall_is_one_and_a_knock_is_none() {
         speed,
         position: Vec3::ZERO,
     };
-    let broken = Break {
-        flask: 0,
-        stage_from_flask: Pose::IDENTITY,
-    };
     let none = |census: Census| census;
     let what = |incidents: &[Incident]| match &incidents[0].what {
         What::Dropped {
@@ -406,7 +375,7 @@ fn a_fall_is_one_and_a_knock_is_none() {
     arranged.hands[0] = false;
     arranged.looks_with(40, (&[blow(1.5)], &[]), &none);
     arranged.looks_with(1, (&[blow(4.0)], &[]), &none);
-    arranged.looks_with(1, (&[], &[broken]), &none);
+    arranged.looks_with(1, (&[], &[BROKEN]), &none);
     let (_, incidents) = arranged.end();
     assert_eq!(incidents.len(), 1, "{incidents:?}");
     let flask = "source".to_owned();
@@ -415,7 +384,7 @@ fn a_fall_is_one_and_a_knock_is_none() {
     let mut arranged = Arranged::new([0.98, 0.0]);
     arranged.looks_with(1, (&[blow(3.5)], &[]), &none);
     arranged.hands[0] = false;
-    arranged.looks_with(1, (&[], &[broken]), &none);
+    arranged.looks_with(1, (&[], &[BROKEN]), &none);
     let (_, incidents) = arranged.end();
     assert_eq!(incidents.len(), 1, "{incidents:?}");
     assert_eq!(what(&incidents), (3.5, true, Cause::Unknown));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Scene, ToolKind};
 
 use super::*;
 use crate::{Language, Texts};
@@ -126,10 +126,11 @@ fn facts_are_those_of_the_scene() {
     let names: Vec<&str> = dilution.flasks.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["source", "target"]);
     assert!(dilution.flasks.iter().all(|it| it.lifted));
-    assert!(dilution.goggles && dilution.gloves && dilution.rinsing && dilution.cloth);
-    assert!(dilution.rod && dilution.thermometer && !dilution.sash);
-    let bare = facts("vr-dilution");
-    assert!(!bare.goggles && !bare.gloves && !bare.rinsing && !bare.cloth && !bare.rod);
+    let lacks: Vec<_> = (ToolKind::ALL.into_iter())
+        .filter(|it| !dilution.has(*it))
+        .collect();
+    assert_eq!(lacks, [ToolKind::Sash]);
+    assert_eq!(facts("vr-dilution").tools, []);
     let small = facts("vr-dilution").liquid_m3;
     assert!(
         (small / (13_000.0 * 0.0025_f64.powi(3)) - 1.0).abs() < 0.01,

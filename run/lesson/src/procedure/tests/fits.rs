@@ -3,6 +3,7 @@
 use super::spoiled::GOOD;
 use super::*;
 use crate::Language;
+use vitriol_sim::scene::ToolKind;
 
 /// Properties of a bench with all bodies, from which tests take some away.
 pub(super) fn facts() -> SceneFacts {
@@ -15,13 +16,7 @@ pub(super) fn facts() -> SceneFacts {
         flasks: vec![flask("a"), flask("b")],
         liquid_m3: 180e-6,
         heat: true,
-        goggles: true,
-        gloves: true,
-        sash: true,
-        rod: true,
-        thermometer: true,
-        cloth: true,
-        rinsing: true,
+        tools: ToolKind::ALL.to_vec(),
     }
 }
 
@@ -41,14 +36,10 @@ fn without(what: &str) -> SceneFacts {
         "all but 12 mL" => facts.liquid_m3 = 12e-6,
         "all but 160 mL" => facts.liquid_m3 = 160e-6,
         "heat" => facts.heat = false,
-        "goggles" => facts.goggles = false,
-        "gloves" => facts.gloves = false,
-        "sash" => facts.sash = false,
-        "rod" => facts.rod = false,
-        "thermometer" => facts.thermometer = false,
-        "cloth" => facts.cloth = false,
-        "rinsing" => facts.rinsing = false,
-        _ => panic!("{what}"),
+        tool => {
+            let tool: ToolKind = serde_json::from_value(tool.into()).unwrap();
+            facts.tools.retain(|it| *it != tool);
+        }
     }
     facts
 }
@@ -85,7 +76,7 @@ gloves: gloves = { on = false }
 sash: sash = { at_most_m = 0.3 }
 thermometer: measured = { flask = "b", for_s = 3 }
 cloth: wiped = { surface = "bench", at_most_ml = 1 }
-rinsing: rinsed = { hand = "left-hand", at_least_ml = 50 }
+gloves: rinsed = { hand = "left-hand", at_least_ml = 50 }
 heat: temperature = { flask = "b", at_most_c = 30 }
 lift of a: put-down = { flask = "a" }
 "#;

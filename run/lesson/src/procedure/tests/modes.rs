@@ -39,10 +39,7 @@ fn guided_shows_one_step_at_a_time_and_hints_when_they_are_due() {
 fn free_opens_all_steps_and_hints_are_asked_for() {
     let mut run = Run::new(lesson(&[("one", LIFT), ("two", POUR)], &[]), Mode::Free);
     run.hear(&[pour([11.0, 12.0], 5.0, 2.0, 0.98)]);
-    assert_eq!(
-        (run.status("one"), run.status("two")),
-        (Status::Open, Status::Done)
-    );
+    assert_eq!(run.both(), [Status::Open, Status::Done]);
     run.wait(60.0);
     assert_eq!(run.hints(), 0);
     let hint = run.procedure.ask_hint("one", run.t);
@@ -87,10 +84,7 @@ fn a_step_whose_time_is_up_is_missed_and_the_next_begins() {
             run.hear(&[pour([11.0, 12.0], 6.0, 9.0, 0.98)]);
         }
         run.wait(0.3);
-        assert_eq!(
-            (run.status("one"), run.status("two")),
-            (Status::Missed, Status::Open)
-        );
+        assert_eq!(run.both(), [Status::Missed, Status::Open]);
         assert_eq!(run.line("one").why, Some(Why::TimeUp { limit_s: 20.0 }));
     }
 }
@@ -166,10 +160,7 @@ fn it_begins_again_with_its_scene() {
     let from = run.said.len();
     run.hear(&[ended(run.t), begun(run.t)]);
     assert!(run.line("order").met);
-    assert_eq!(
-        (run.status("one"), run.status("two")),
-        (Status::Open, Status::Waiting)
-    );
+    assert_eq!(run.both(), [Status::Open, Status::Waiting]);
     assert!(!run.procedure.state().over);
     let again = run.said[from..]
         .iter()

@@ -12,10 +12,7 @@ fn a_pour_that_begins_before_the_one_before_is_known_counts() {
     let mut run = Run::new(lesson, Mode::Guided);
     run.wait(5.0);
     run.hear(&[pour([11.0, 12.0], 5.0, 2.0, 0.98)]);
-    assert_eq!(
-        (run.status("one"), run.status("two")),
-        (Status::Done, Status::Open)
-    );
+    assert_eq!(run.both(), [Status::Done, Status::Open]);
     assert_eq!(run.line("one").evidence_s, Some(12.0));
     let said_at = run.t;
     run.hear(&[pour([12.5, 13.0], 5.0, 2.0, 0.98)]);
@@ -160,10 +157,7 @@ fn a_pour_that_is_known_at_the_end_counts() {
     );
     run.wait(2.0);
     run.hear(&[pour([11.0, 12.0], 6.0, 2.0, 0.98), ended(12.1)]);
-    assert_eq!(
-        (run.status("one"), run.status("two")),
-        (Status::Done, Status::Missed)
-    );
+    assert_eq!(run.both(), [Status::Done, Status::Missed]);
     assert_eq!(run.line("two").why, Some(Why::NotDone));
     assert!(run.procedure.state().over);
 }

@@ -22,15 +22,19 @@ struct KeepLine {
     keep: Vec<Keep>,
 }
 
-/// Rows of the page's table with that first cell in its head, by their first name.
-fn table(head: &str) -> BTreeMap<String, String> {
+/// Rows of the page's table with that first cell in its head, by their first name. They are those that the code knows, as it says of
+/// `unknown`.
+fn table<T: DeserializeOwned>(head: &str, unknown: &str) -> BTreeMap<String, String> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/write-a-lesson.md");
     let page = std::fs::read_to_string(path).unwrap();
     let begin = format!("| {head} |");
     let from = page.lines().skip_while(|line| !line.starts_with(&begin));
     let rows = from.skip(2).take_while(|line| line.starts_with('|'));
     let named = rows.map(|row| (row.split('`').nth(1).unwrap().to_owned(), row.to_owned()));
-    named.collect()
+    let rows: BTreeMap<String, String> = named.collect();
+    let names: BTreeSet<String> = rows.keys().cloned().collect();
+    assert_eq!(names, known::<T>(unknown), "{rows:#?}");
+    rows
 }
 
 /// The last code of a row.
@@ -56,13 +60,7 @@ fn has_word(row: &str, word: &str) -> bool {
 
 #[test]
 fn the_page_has_each_condition_with_its_keys() {
-    let rows = table("condition");
-    let names: BTreeSet<String> = rows.keys().cloned().collect();
-    assert_eq!(
-        names,
-        known::<StepLine>("condition = { unknown = 1 }"),
-        "{rows:#?}"
-    );
+    let rows = table::<StepLine>("condition", "condition = { unknown = 1 }");
     for (name, row) in &rows {
         let inside = format!("condition = {{ {name} = {{ unknown = 1 }} }}");
         for key in known::<StepLine>(&inside) {
@@ -78,13 +76,7 @@ fn the_page_has_each_condition_with_its_keys() {
 
 #[test]
 fn the_page_has_each_requirement_with_its_keys() {
-    let rows = table("requirement");
-    let names: BTreeSet<String> = rows.keys().cloned().collect();
-    assert_eq!(
-        names,
-        known::<KeepLine>("keep = [{ unknown = 1 }]"),
-        "{rows:#?}"
-    );
+    let rows = table::<KeepLine>("requirement", "keep = [{ unknown = 1 }]");
     for (name, row) in &rows {
         let inside = format!("keep = [{{ {name} = {{ unknown = 1 }} }}]");
         for key in known::<KeepLine>(&inside) {
@@ -102,9 +94,7 @@ fn the_page_has_each_requirement_with_its_keys() {
 
 #[test]
 fn the_page_has_each_cap_with_its_usual_points() {
-    let rows = table("cap");
-    let names: BTreeSet<String> = rows.keys().cloned().collect();
-    assert_eq!(names, known::<Caps>("unknown = 1"), "{rows:#?}");
+    let rows = table::<Caps>("cap", "unknown = 1");
     for (name, usual) in Caps::default().named() {
         let row = &rows[name];
         assert!(row.contains(&format!("| {usual} |")), "{row}");

@@ -102,10 +102,12 @@ fn what_stands_around_the_steps_fits_the_panel() {
         let texts = Texts::of(language).unwrap();
         let wide = if language == Language::Zh { 2 } else { 1 };
         let length = |text: String| wide * text.chars().count();
-        for button in [texts.ask_hint(), texts.skip_step(), texts.finish_lesson()] {
-            assert!((2..=26).contains(&length(button)), "{language}");
+        let panel = &texts.panel;
+        for button in [&panel.hint, &panel.skip, &panel.finish] {
+            assert!((2..=26).contains(&length(button.text())), "{language}");
         }
-        for line in [texts.steps_in_all(50), texts.more_steps(50)] {
+        for label in [&panel.steps, &panel.more] {
+            let line = label.fill(&[("number", "50")]);
             assert!(line.contains("50") && length(line) < 50, "{language}");
         }
     }

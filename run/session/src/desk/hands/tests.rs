@@ -276,12 +276,31 @@ impl Bench {
         self.frame();
     }
 
-    /// Takes hold of the source with the main button, which stays down.
-    fn take(&mut self) {
-        self.point(at_source());
+    fn click(&mut self) {
+        self.press();
+        self.release();
+    }
+
+    fn grip(&mut self) {
+        self.controls.grip = true;
+        self.frame();
+    }
+
+    /// Points at a place, and waits until a hand is there.
+    fn go_to(&mut self, at: Vec3) {
+        self.point(at);
         self.wait(3.0);
+    }
+
+    /// Takes hold of what is at that place with the main button, which stays down.
+    fn take_at(&mut self, at: Vec3) {
+        self.go_to(at);
         self.press();
         self.wait(1.0);
+    }
+
+    fn take(&mut self) {
+        self.take_at(at_source());
         assert_eq!(self.around.holds, [None, Some(SOURCE)]);
     }
 

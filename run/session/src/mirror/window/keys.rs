@@ -2,12 +2,12 @@
 
 use std::sync::mpsc::Sender;
 
-use winit::event::{ElementState, KeyEvent, MouseButton as Button, MouseScrollDelta, WindowEvent};
+use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
 use super::lay::within;
 use crate::decision::Decision;
-use crate::desk::input::{DeskKey, Input, MouseButton};
+use crate::desk::input::{DeskKey, Input};
 use crate::menu;
 
 /// Pixels of a touchpad's scrolling that are a notch of a wheel: three lines of text. Our choice.
@@ -106,13 +106,7 @@ impl Listener {
                 self.send(Input::Pointer(at));
             }
             WindowEvent::MouseInput { state, button, .. } => {
-                let button = match button {
-                    Button::Left => MouseButton::Main,
-                    Button::Right => MouseButton::Secondary,
-                    Button::Middle => MouseButton::Middle,
-                    _ => return Outcome::Taken,
-                };
-                let down = *state == ElementState::Pressed;
+                let (button, down) = (*button, *state == ElementState::Pressed);
                 self.send(Input::Button { button, down });
             }
             WindowEvent::MouseWheel { delta, .. } => {

@@ -68,10 +68,7 @@ fn the_other_hand_leaves_the_first_its_flask() {
     assert_eq!(bench.hands.active(), Side::Left);
     bench.release();
     bench.wait(1.0);
-    bench.point(at_target());
-    bench.wait(3.0);
-    bench.press();
-    bench.wait(1.0);
+    bench.take_at(at_target());
     assert_eq!(bench.around.holds, [Some(TARGET), Some(SOURCE)]);
     // It was steadied where it stands.
     let start = two_flasks().things[SOURCE].pose.position;
@@ -86,8 +83,7 @@ fn the_other_hand_leaves_the_first_its_flask() {
 fn a_click_on_the_panel_pulls_a_trigger_and_grips_nothing() {
     for dt in RATES {
         let mut bench = Bench::new(two_flasks(), dt);
-        bench.point(at_source());
-        bench.wait(3.0);
+        bench.go_to(at_source());
         let button = Vec3::new(0.1, 1.2, -0.80);
         bench.point(button);
         bench.press();
@@ -117,10 +113,8 @@ fn a_click_on_the_panel_counts_with_both_hands_full() {
     for dt in RATES {
         let mut bench = Bench::new(two_flasks(), dt);
         for at in [at_source(), at_target()] {
-            bench.point(at);
-            bench.wait(3.0);
-            bench.controls.grip = true;
-            bench.frame();
+            bench.go_to(at);
+            bench.grip();
             bench.wait(1.0);
             bench.controls.other = at == at_source();
             bench.frame();
@@ -128,8 +122,7 @@ fn a_click_on_the_panel_counts_with_both_hands_full() {
         let full = [Some(TARGET), Some(SOURCE)];
         assert_eq!(bench.around.holds, full);
         bench.point(Vec3::new(0.1, 1.2, -0.80));
-        bench.press();
-        bench.release();
+        bench.click();
         let mut pulled = Vec::new();
         for _ in 0..(2.0 / bench.counts) as usize {
             bench.frame();
@@ -167,8 +160,7 @@ fn keys_alone_pour() {
         // From the middle of the bench: 12 cm at 0.25 m/s.
         walk(&mut bench, -1.0, 0.48);
         bench.wait(3.0);
-        bench.controls.grip = true;
-        bench.frame();
+        bench.grip();
         bench.wait(2.0);
         assert_eq!(bench.around.holds, [None, Some(SOURCE)]);
         walk(&mut bench, 1.0, 2.0);
@@ -176,8 +168,7 @@ fn keys_alone_pour() {
         assert!(bench.up(SOURCE).x > 0.8, "{}", bench.up(SOURCE));
         bench.tilt(1.0, 2.0);
         walk(&mut bench, -1.0, 2.0);
-        bench.controls.grip = true;
-        bench.frame();
+        bench.grip();
         bench.wait(8.0);
         bench.stands(SOURCE);
     }
@@ -193,10 +184,7 @@ fn the_hand_beside_which_a_pour_falls_takes_a_flask() {
     ] {
         let mut bench = Bench::new(two_flasks(), RATES[0]);
         bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
-        bench.point(at);
-        bench.wait(3.0);
-        bench.press();
-        bench.wait(1.0);
+        bench.take_at(at);
         assert_eq!(bench.around.holds[side as usize], Some(thing));
         bench.controls.wheel = 5.0;
         bench.wait(2.0);
@@ -211,18 +199,12 @@ fn the_hand_beside_which_a_pour_falls_takes_a_flask() {
     let mut bench = Bench::new(two_flasks(), RATES[0]);
     bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
     bench.controls.other = true;
-    bench.point(at_target());
-    bench.wait(3.0);
-    bench.press();
-    bench.wait(1.0);
+    bench.take_at(at_target());
     assert_eq!(bench.around.holds, [Some(TARGET), None]);
     bench.release();
     bench.wait(6.0);
     bench.stands(TARGET);
-    bench.point(at_target());
-    bench.wait(3.0);
-    bench.press();
-    bench.wait(1.0);
+    bench.take_at(at_target());
     assert_eq!(bench.around.holds, [None, Some(TARGET)]);
 }
 
@@ -257,10 +239,8 @@ fn taps_bring_a_tilted_flask_over_a_rim() {
 fn clicks_take_and_put_down_where_they_toggle() {
     let mut bench = Bench::new(two_flasks(), RATES[0]);
     bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_toggles(true);
-    bench.point(at_source());
-    bench.wait(3.0);
-    bench.press();
-    bench.release();
+    bench.go_to(at_source());
+    bench.click();
     bench.wait(1.0);
     assert_eq!(bench.around.holds[1], Some(SOURCE));
     bench.drag(at_source(), at_source() - 0.1 * Vec3::X);

@@ -5,8 +5,7 @@ use super::*;
 #[test]
 fn what_comes_while_time_is_held_waits_for_it() {
     let mut bench = Bench::new(two_flasks(), RATES[0]);
-    bench.point(at_source());
-    bench.wait(3.0);
+    bench.go_to(at_source());
     (bench.controls.press, bench.controls.pressed) = (true, true);
     for _ in 0..200 {
         bench.still();
@@ -49,8 +48,7 @@ fn a_hand_that_is_to_let_go_before_it_holds_does() {
     for toggles in [false, true] {
         let mut bench = Bench::new(two_flasks(), RATES[0]);
         bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_toggles(toggles);
-        bench.point(at_source());
-        bench.wait(3.0);
+        bench.go_to(at_source());
         bench.press();
         // It closes, and it is not known yet what it holds.
         assert_eq!(bench.now[1].squeeze, 1.0);
@@ -58,8 +56,7 @@ fn a_hand_that_is_to_let_go_before_it_holds_does() {
         assert_eq!(held, Some(SOURCE));
         bench.release();
         if toggles {
-            bench.press();
-            bench.release();
+            bench.click();
         }
         bench.around.holds[1] = held;
         bench.wait(2.0);
@@ -120,8 +117,7 @@ fn lines_that_are_left_out_are_the_least() {
     bench.controls.other = true;
     bench.release();
     let at_third = third + 0.04 * Vec3::Y;
-    bench.point(at_third);
-    bench.wait(3.0);
+    bench.go_to(at_third);
     let falls = |line: &vitriol_xr::Line| {
         let way = line.to - line.from;
         way.with_y(0.0).length() < 1e-6 && way.y < 0.0

@@ -23,16 +23,13 @@ fn a_click_or_two_keys_put_goggles_on() {
             let (mut bench, at) = with_goggles(dt);
             bench.point(at);
             if keys {
-                bench.controls.grip = true;
-                bench.frame();
+                bench.grip();
                 bench.wait(3.0);
                 assert_eq!(bench.around.holds[1], Some(TARGET));
-                bench.controls.grip = true;
-                bench.frame();
+                bench.grip();
             } else {
                 // The hand is not there yet.
-                bench.press();
-                bench.release();
+                bench.click();
             }
             bench.wait(8.0);
             assert!(is_worn(&bench), "{:?}", bench.around.things[TARGET]);
@@ -46,8 +43,7 @@ fn one_click_puts_goggles_on_where_clicks_toggle() {
     let (mut bench, at) = with_goggles(RATES[0]);
     bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_toggles(true);
     bench.point(at);
-    bench.press();
-    bench.release();
+    bench.click();
     bench.point(at - 0.05 * Vec3::X);
     bench.wait(8.0);
     assert!(is_worn(&bench), "{:?}", bench.around.things[TARGET]);
@@ -56,10 +52,7 @@ fn one_click_puts_goggles_on_where_clicks_toggle() {
 #[test]
 fn goggles_that_are_dragged_are_put_down() {
     let (mut bench, at) = with_goggles(RATES[0]);
-    bench.point(at);
-    bench.wait(3.0);
-    bench.press();
-    bench.wait(1.0);
+    bench.take_at(at);
     bench.drag(at, at - 0.08 * Vec3::Z);
     bench.wait(2.0);
     bench.release();
@@ -86,20 +79,14 @@ fn gloves_leave_the_choice_of_the_hand_as_it_was() {
     bench.hands = Hands::new(&Pose::new(EYE, Quat::IDENTITY), TABLE).with_choice();
     for side in [Side::Right, Side::Left] {
         bench.controls.other = side == Side::Left;
-        bench.point(at);
-        bench.wait(3.0);
-        bench.press();
-        bench.wait(1.0);
+        bench.take_at(at);
         assert_eq!(bench.around.holds[side as usize], Some(glove_box));
         bench.release();
         bench.wait(4.0);
         assert_eq!(bench.around.holds, [None; 2]);
     }
     assert_eq!(bench.hands.active(), Side::Left);
-    bench.point(at_target());
-    bench.wait(3.0);
-    bench.press();
-    bench.wait(1.0);
+    bench.take_at(at_target());
     assert_eq!(bench.around.holds, [None, Some(TARGET)]);
 }
 
@@ -129,8 +116,7 @@ fn gloves_are_pulled_off() {
             bench.around.gloves = [true; 2];
             if at_flask {
                 bench.controls.other = true;
-                bench.point(at_source());
-                bench.wait(3.0);
+                bench.go_to(at_source());
                 bench.controls.other = true;
             }
             bench.frame();
@@ -146,8 +132,7 @@ fn gloves_are_pulled_off() {
                 let on_ring =
                     |it: &vitriol_xr::Line| (it.from.distance(wrist) - 0.045).abs() < 1e-3;
                 assert!(marks.iter().all(on_ring), "{marks:?}");
-                bench.press();
-                bench.release();
+                bench.click();
             } else {
                 bench.controls.gloves = true;
                 bench.frame();
