@@ -12,6 +12,7 @@ use vitriol_shaders::{Library, layout};
 use crate::RenderError;
 use crate::desc::{Lanes, LiquidDesc};
 use crate::frame::FrameDesc;
+use crate::half_depth::half;
 use crate::lanes::workgroups;
 use crate::scene::MOST_VESSELS;
 use crate::source::{LiquidSource, Neighbours};
@@ -55,7 +56,7 @@ impl Fluid {
         let pixels = |[width, height]: [u32; 2]| (views * width * height) as usize;
         let floats =
             |label: &str| Buffer::storage(gpu, label, bytes_of_elements::<f32>(pixels(extent)));
-        let blocks = pixels(blocks_of(extent));
+        let blocks = pixels(half(extent));
         let ellipsoids = bytes_of_elements::<layout::Ellipsoid>(desc.particles as usize);
         Ok(Self {
             desc,
@@ -234,15 +235,10 @@ impl Fluid {
             sums: rec.read_back(&self.sums)?,
             nears,
             extent: self.extent,
-            blocks: blocks_of(self.extent),
+            blocks: half(self.extent),
             spacing,
         })
     }
-}
-
-/// Blocks of four pixels in a row, and rows of them.
-fn blocks_of(extent: [u32; 2]) -> [u32; 2] {
-    extent.map(|side| side.div_ceil(2))
 }
 
 fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {

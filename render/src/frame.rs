@@ -12,7 +12,7 @@ use crate::fovea::Foveation;
 use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
 use crate::resting::RestingDrop;
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
-use crate::source::{LiquidSource, ParticleSource, SteamSource};
+use crate::source::{LiquidSource, ParticleSource, SteamSource, check_count};
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints::Tint;
 
@@ -193,25 +193,11 @@ impl<'a> FrameDesc<'a> {
         if let Some(steam) = self.steam {
             let held = steam.puffs.bytes() / size_of::<layout::Puff>() as u64;
             let held = held.min(MOST_PUFFS.into());
-            if u64::from(steam.count) > held {
-                return Err(RenderError::TooManyParticles {
-                    count: steam.count,
-                    buffer: steam.puffs.label().to_owned(),
-                    held,
-                });
-            }
+            check_count(steam.count, steam.puffs.label(), held)?;
         }
-        let Some(particles) = self.particles else {
-            return Ok(());
-        };
-        for buffer in [particles.positions, particles.attributes] {
-            let held = buffer.bytes() / 16;
-            if u64::from(particles.count) > held {
-                return Err(RenderError::TooManyParticles {
-                    count: particles.count,
-                    buffer: buffer.label().to_owned(),
-                    held,
-                });
+        if let Some(particles) = self.particles {
+            for buffer in [particles.positions, particles.attributes] {
+                check_count(particles.count, buffer.label(), buffer.bytes() / 16)?;
             }
         }
         Ok(())

@@ -68,7 +68,7 @@ impl HalfDepth {
     }
 }
 
-/// Half of each side, rounded up.
-fn half(extent: [u32; 2]) -> [u32; 2] {
+/// Half of each side, rounded up: blocks of four pixels.
+pub(crate) fn half(extent: [u32; 2]) -> [u32; 2] {
     extent.map(|side| side.div_ceil(2))
 }

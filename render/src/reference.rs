@@ -8,7 +8,6 @@ mod compare;
 mod drawn;
 mod eigen;
 mod field;
-mod grid;
 mod march;
 mod parallel;
 mod surroundings;

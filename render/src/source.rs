@@ -119,46 +119,31 @@ impl LiquidSource<'_> {
             counts,
         ];
         for (buffer, bytes) in buffers.into_iter().flatten() {
-            let held = buffer.bytes() / bytes;
-            if u64::from(self.count) > held {
-                return Err(RenderError::TooManyParticles {
-                    count: self.count,
-                    buffer: buffer.label().to_owned(),
-                    held,
-                });
-            }
+            check_count(self.count, buffer.label(), buffer.bytes() / bytes)?;
         }
-        if self.count > desc.particles {
-            return Err(RenderError::TooManyParticles {
-                count: self.count,
-                buffer: "ellipsoids".to_owned(),
-                held: desc.particles.into(),
-            });
-        }
+        check_count(self.count, "ellipsoids", desc.particles.into())?;
         let Some(source) = self.bubbles else {
             return Ok(());
         };
-        let held = |buffer: &Buffer, bytes: usize| buffer.bytes() / bytes as u64;
-        let places = held(source.bubbles, size_of::<layout::Bubble>());
-        let of_drops = source.spray.map(|spray| {
-            (
-                spray.drops,
-                held(spray.drops, 2 * size_of::<layout::Drops>()),
-            )
-        });
-        for (buffer, held) in [Some((source.bubbles, places)), of_drops]
-            .into_iter()
-            .flatten()
-        {
-            let held = held.min(desc.bubbles.into());
-            if u64::from(source.count) > held {
-                return Err(RenderError::TooManyParticles {
-                    count: source.count,
-                    buffer: buffer.label().to_owned(),
-                    held,
-                });
-            }
+        let drops = source.spray.map(|spray| spray.drops);
+        let drops = drops.map(|drops| (drops, 2 * size_of::<layout::Drops>()));
+        let bubbles = std::iter::once((source.bubbles, size_of::<layout::Bubble>()));
+        for (buffer, bytes) in bubbles.chain(drops) {
+            let held = (buffer.bytes() / bytes as u64).min(desc.bubbles.into());
+            check_count(source.count, buffer.label(), held)?;
         }
         Ok(())
     }
+}
+
+/// Refuses more particles than the buffer of that label holds.
+pub(crate) fn check_count(count: u32, label: &str, held: u64) -> Result<(), RenderError> {
+    if u64::from(count) <= held {
+        return Ok(());
+    }
+    Err(RenderError::TooManyParticles {
+        count,
+        buffer: label.to_owned(),
+        held,
+    })
 }

@@ -2,7 +2,7 @@
 
 use naga::back::spv;
 use naga::back::{PipelineConstants, pipeline_constants};
-use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+use naga::proc::BoundsCheckPolicies;
 use naga::valid::{ValidationFlags, Validator};
 use naga::{AddressSpace, Module, ShaderStage};
 
@@ -11,27 +11,6 @@ use crate::error::ShaderError;
 use crate::fold::fold_constant_ifs;
 use crate::reflect::{Binding, Stage, bindings};
 use crate::spirv::rewrite;
-
-/// Whether the shader checks indices and divisors at run time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BoundsChecks {
-    /// No checks: an index out of range and an integer division by zero are undefined.
-    #[default]
-    Off,
-    /// Indices are clamped to the last element and integer division by zero is defined as in
-    /// WGSL: for tracking down an error.
-    On,
-}
-
-/// How shaders are compiled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CompileOptions {
-    /// Checks at run time; off by default.
-    pub bounds_checks: BoundsChecks,
-    /// Whether source text and line numbers are written into the SPIR-V for a debugger; off by
-    /// default. The names of variables and functions always are.
-    pub debug_info: bool,
-}
 
 /// SPIR-V for one entry point, and its requirements of a pipeline.
 ///
@@ -58,17 +37,15 @@ pub struct Compiled {
     pub unused: Vec<String>,
 }
 
-/// Compiles one entry point of the shader at `path`; `text` is its expanded source.
+/// Compiles one entry point of the shader at `path`.
 ///
 /// # Errors
 /// Every variant of [`ShaderError`] but those about files.
 pub fn compile(
     path: &str,
-    text: &str,
     checked: &Checked,
     entry: &str,
     constants: &[(&str, f64)],
-    options: CompileOptions,
 ) -> Result<Compiled, ShaderError> {
     let specialise = |message: String| ShaderError::Specialise {
         shader: path.to_owned(),
@@ -119,7 +96,7 @@ pub fn compile(
     let spirv = spv::write_vec(
         &module,
         &info,
-        &writer_options(path, text, options),
+        &writer_options(),
         Some(&spv::PipelineOptions {
             shader_stage,
             entry_point: entry.to_owned(),
@@ -198,32 +175,16 @@ pub fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-fn writer_options<'a>(path: &'a str, text: &'a str, options: CompileOptions) -> spv::Options<'a> {
-    let checks = options.bounds_checks == BoundsChecks::On;
-    let policy = if checks {
-        BoundsCheckPolicy::Restrict
-    } else {
-        BoundsCheckPolicy::Unchecked
-    };
+/// Without checks at run time: an index out of range and an integer division by zero are undefined.
+fn writer_options() -> spv::Options<'static> {
     spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::DEBUG,
-        bounds_check_policies: BoundsCheckPolicies {
-            index: policy,
-            buffer: policy,
-            image_load: policy,
-            binding_array: policy,
-        },
+        bounds_check_policies: BoundsCheckPolicies::default(),
         zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
         force_loop_bounding: false,
         use_storage_input_output_16: false,
-        emit_int_div_checks: checks,
-        debug_info: options.debug_info.then_some(spv::DebugInfo {
-            source_code: text,
-            file_name: path,
-            // Validators and drivers older than 2024 refuse the number of WGSL.
-            language: spv::SourceLanguage::Unknown,
-        }),
+        emit_int_div_checks: false,
         ..Default::default()
     }
 }

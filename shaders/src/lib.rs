@@ -37,7 +37,7 @@ mod reflect;
 mod reload;
 mod spirv;
 
-pub use compile::{BoundsChecks, CompileOptions, Compiled};
+pub use compile::Compiled;
 pub use error::ShaderError;
 pub use library::Library;
 pub use reflect::{

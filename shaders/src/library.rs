@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use crate::check::{Checked, check};
-use crate::compile::{CompileOptions, Compiled, compile};
+use crate::compile::{Compiled, compile};
 use crate::error::ShaderError;
 use crate::files;
 use crate::include::{Expanded, expand};
@@ -19,7 +19,6 @@ use crate::{EMBEDDED, ShaderId};
 /// It can be shared between threads.
 #[derive(Debug)]
 pub struct Library {
-    options: CompileOptions,
     /// The folder that is watched, if one is.
     folder: Option<PathBuf>,
     state: Mutex<State>,
@@ -93,20 +92,12 @@ impl Library {
         };
         let files = sources.into_iter().map(|(p, t)| (p.into(), file(t)));
         Self {
-            options: CompileOptions::default(),
             folder: None,
             state: Mutex::new(State {
                 files: files.collect(),
                 shaders: HashMap::new(),
             }),
         }
-    }
-
-    /// This library, compiling with `options` from now on.
-    #[must_use]
-    pub fn with_options(mut self, options: CompileOptions) -> Self {
-        self.options = options;
-        self
     }
 
     /// The value of the constant `name` of the file at `path`, which has a line `const NAME: f32 = NUMBER;`.
@@ -172,14 +163,7 @@ impl Library {
         constants: &[(&str, f64)],
     ) -> Result<Compiled, ShaderError> {
         let source = self.load(shader)?;
-        compile(
-            shader.path(),
-            &source.expanded.text,
-            &source.checked,
-            entry,
-            constants,
-            self.options,
-        )
+        compile(shader.path(), &source.checked, entry, constants)
     }
 
     /// Looks for files that changed on disk since the last call, and takes up those shaders that

@@ -10,19 +10,13 @@ const UNIT_TOLERANCE: f32 = 1e-3;
 /// A rigid transform, named `target_from_source` where it is stored: a point of
 /// `source`'s frame goes through [`Pose::transform_point`] into `target`'s.
 ///
-/// `position` is in metres; `orientation` is a unit quaternion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// `position` is in metres; `orientation` is a unit quaternion. [`Pose::IDENTITY`] by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// The source frame's origin, in the target frame (m).
     pub position: Vec3,
     /// The source frame's axes, in the target frame; of unit length.
     pub orientation: Quat,
-}
-
-impl Default for Pose {
-    fn default() -> Self {
-        Self::IDENTITY
-    }
 }
 
 impl Pose {

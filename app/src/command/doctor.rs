@@ -105,18 +105,19 @@ fn look() -> Findings {
     };
     let devices: Vec<Device> = devices
         .into_iter()
-        .map(|device| Device {
-            index: device.index,
-            name: device.name,
-            advice: advice(device.kind, &device.driver),
-            driver: device.driver,
-            vulkan: device.api,
-            kind: format!("{:?}", device.kind)
+        .enumerate()
+        .map(|(index, device)| Device {
+            index,
+            name: device.info.name,
+            advice: advice(device.info.kind, &device.info.driver),
+            driver: device.info.driver,
+            vulkan: device.info.api,
+            kind: format!("{:?}", device.info.kind)
                 .to_lowercase()
                 .replace('_', " "),
             usable: device.missing.is_empty(),
-            subgroup_sizes: device.subgroup_sizes,
-            maximal_reconvergence: device.features.maximal_reconvergence,
+            subgroup_sizes: [device.info.least_subgroup_size, device.info.subgroup_size],
+            maximal_reconvergence: device.info.features.maximal_reconvergence,
             missing: device.missing,
             missing_optional: device.missing_optional,
             extensions: device.extensions,

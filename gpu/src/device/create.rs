@@ -114,12 +114,12 @@ pub(crate) fn device_request(
     queues: Vec<QueueRequest>,
 ) -> DeviceRequest {
     let mut extensions = vec![ash::khr::push_descriptor::NAME.to_owned()];
-    if properties.features.maximal_reconvergence {
+    if properties.info.features.maximal_reconvergence {
         extensions.push(ash::khr::shader_maximal_reconvergence::NAME.to_owned());
     }
     let mut request = DeviceRequest {
         extensions,
-        features: properties.features,
+        features: properties.info.features,
         queues,
     };
     provider.amend_device(&mut request);

@@ -68,22 +68,15 @@ pub struct EnabledFeatures {
 
 /// The driver's own words and numbers about one physical device.
 pub(crate) struct Properties {
-    pub(crate) name: String,
-    pub(crate) driver: String,
-    pub(crate) api_version: u32,
-    pub(crate) kind: vk::PhysicalDeviceType,
-    pub(crate) limits: BindingLimits,
-    pub(crate) subgroup_size: u32,
-    pub(crate) least_subgroup_size: u32,
-    pub(crate) timestamp_period: f32,
+    /// With all features that the device has.
+    pub(crate) info: DeviceInfo,
     pub(crate) extensions: Vec<CString>,
-    pub(crate) features: EnabledFeatures,
     /// Requirements that it does not meet.
     pub(crate) missing: Vec<String>,
 }
 
 /// "1.3.230".
-pub(crate) fn version_text(version: u32) -> String {
+fn version_text(version: u32) -> String {
     format!(
         "{}.{}.{}",
         vk::api_version_major(version),
@@ -126,20 +119,21 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
     missing.extend(needs::lacks(&core.limits, push.max_push_descriptors));
     let driver_name = text(v12.driver_name_as_c_str());
     let driver_info = text(v12.driver_info_as_c_str());
-    Properties {
+    let limits = BindingLimits {
+        storage_bytes: u64::from(core.limits.max_storage_buffer_range),
+        uniform_bytes: u64::from(core.limits.max_uniform_buffer_range),
+        immediate_bytes: core.limits.max_push_constants_size,
+        workgroups: core.limits.max_compute_work_group_count,
+        bindings: push.max_push_descriptors,
+        texels: core.limits.max_texel_buffer_elements.into(),
+        storage_images: core.limits.max_per_stage_descriptor_storage_images,
+    };
+    let info = DeviceInfo {
         name: text(core.device_name_as_c_str()),
         driver: format!("{driver_name} {driver_info}").trim().to_owned(),
-        api_version: core.api_version,
+        api: version_text(core.api_version),
         kind: core.device_type,
-        limits: BindingLimits {
-            storage_bytes: u64::from(core.limits.max_storage_buffer_range),
-            uniform_bytes: u64::from(core.limits.max_uniform_buffer_range),
-            immediate_bytes: core.limits.max_push_constants_size,
-            workgroups: core.limits.max_compute_work_group_count,
-            bindings: push.max_push_descriptors,
-            texels: core.limits.max_texel_buffer_elements.into(),
-            storage_images: core.limits.max_per_stage_descriptor_storage_images,
-        },
+        limits,
         subgroup_size: v11.subgroup_size,
         least_subgroup_size: v13.min_subgroup_size,
         timestamp_period: if core.limits.timestamp_compute_and_graphics == vk::TRUE {
@@ -147,8 +141,17 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
         } else {
             0.0
         },
-        extensions,
         features,
+        // Vulkan promises 65,536 texels, of which a list soon has more, and four storage images, where a pass reads up to 32
+        // arrays: a binder has a bit for each name that is given.
+        reads_texels: core.device_type == vk::PhysicalDeviceType::CPU
+            && features.storage_formats
+            && limits.storage_images >= 32
+            && limits.texels >= 1 << 27,
+    };
+    Properties {
+        info,
+        extensions,
         missing,
     }
 }

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::info::{EnabledFeatures, Properties, version_text};
+use super::info::{DeviceInfo, Properties};
 use super::provider::load_entry;
 use super::select::ranked;
 use crate::GpuError;
@@ -10,20 +10,8 @@ use crate::GpuError;
 /// One device as `vitriol doctor` shows it.
 #[derive(Clone, Debug)]
 pub struct DeviceSummary {
-    /// Index for `Options::device`.
-    pub index: usize,
-    /// Device name.
-    pub name: String,
-    /// Driver name and version.
-    pub driver: String,
-    /// Vulkan version.
-    pub api: String,
-    /// Discrete, integrated, CPU and so on.
-    pub kind: vk::PhysicalDeviceType,
-    /// Invocations of the smallest subgroup that the driver may choose, and per subgroup as a rule.
-    pub subgroup_sizes: [u32; 2],
-    /// Optional features that it has.
-    pub features: EnabledFeatures,
+    /// Its properties, with all optional features that it has.
+    pub info: DeviceInfo,
     /// Names of its extensions.
     pub extensions: Vec<String>,
     /// Required things that it lacks; empty when it can be used.
@@ -32,7 +20,7 @@ pub struct DeviceSummary {
     pub missing_optional: Vec<String>,
 }
 
-/// All devices, best first, without opening one.
+/// All devices, best first, without opening one; `Options::device` takes the index.
 ///
 /// # Errors
 /// [`GpuError::NoLoader`], [`GpuError::NoInstance`] or [`GpuError::NoDevice`],
@@ -47,8 +35,7 @@ pub fn list_devices() -> Result<Vec<DeviceSummary>, GpuError> {
     let list = ranked(&instance).map(|devices| {
         devices
             .into_iter()
-            .enumerate()
-            .map(|(index, (_, properties))| summary(index, properties))
+            .map(|(_, properties)| summary(properties))
             .collect()
     });
     // SAFETY: nothing made from the instance is left.
@@ -56,26 +43,21 @@ pub fn list_devices() -> Result<Vec<DeviceSummary>, GpuError> {
     list
 }
 
-fn summary(index: usize, properties: Properties) -> DeviceSummary {
+fn summary(properties: Properties) -> DeviceSummary {
+    let info = properties.info;
     let mut missing_optional = Vec::new();
-    if properties.timestamp_period == 0.0 {
+    if info.timestamp_period == 0.0 {
         missing_optional.push("timestamps (no times per pass)".to_owned());
     }
-    if !properties.features.subgroups {
+    if !info.features.subgroups {
         missing_optional.push("subgroup operations in compute".to_owned());
-    } else if !properties.features.maximal_reconvergence {
+    } else if !info.features.maximal_reconvergence {
         let what =
             "maximal reconvergence (lanes that part in a loop meet again as the driver likes)";
         missing_optional.push(what.to_owned());
     }
     DeviceSummary {
-        index,
-        name: properties.name,
-        driver: properties.driver,
-        api: version_text(properties.api_version),
-        kind: properties.kind,
-        subgroup_sizes: [properties.least_subgroup_size, properties.subgroup_size],
-        features: properties.features,
+        info,
         extensions: properties
             .extensions
             .iter()

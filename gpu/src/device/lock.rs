@@ -16,12 +16,6 @@ pub struct Waits {
 }
 
 impl Waits {
-    const NONE: Self = Self {
-        count: 0,
-        total: Duration::ZERO,
-        longest: Duration::ZERO,
-    };
-
     /// Adds the waits of `others`.
     pub fn add(&mut self, others: &Self) {
         self.count += others.count;
@@ -42,10 +36,7 @@ pub struct LockWaits {
 impl LockWaits {
     /// Waits of the calling thread since its last call of this function.
     pub fn take() -> Self {
-        WAITED.replace(Self {
-            queue: Waits::NONE,
-            memory: Waits::NONE,
-        })
+        WAITED.take()
     }
 
     /// Adds the waits of `others`.
@@ -56,9 +47,7 @@ impl LockWaits {
 }
 
 thread_local! {
-    static WAITED: Cell<LockWaits> = const {
-        Cell::new(LockWaits { queue: Waits::NONE, memory: Waits::NONE })
-    };
+    static WAITED: Cell<LockWaits> = Cell::default();
 }
 
 /// Locks, ignoring poison: every guarded value is valid between statements.

@@ -12,7 +12,7 @@ use super::create::{
     create_device, create_instance, create_messenger, device_request, instance_extensions,
     instance_request, validation_layer,
 };
-use super::info::{self, DeviceInfo, EnabledFeatures, Properties, has, version_text};
+use super::info::{self, has};
 use super::options::Options;
 use super::plan::QueuePlan;
 use super::provider::Provider;
@@ -46,8 +46,8 @@ pub(crate) fn open(
         .iter()
         .map(|(handle, properties)| Candidate {
             handle: *handle,
-            name: properties.name.clone(),
-            kind: properties.kind,
+            name: properties.info.name.clone(),
+            kind: properties.info.kind,
             missing: properties.missing.clone(),
         })
         .collect();
@@ -55,16 +55,16 @@ pub(crate) fn open(
     let mut properties = info::query(instance, physical);
     if options.validation && validation_layer(&entry).is_some_and(|knows| knows < RECONVERGES) {
         // An older layer would take the extension for an error of ours.
-        properties.features.maximal_reconvergence = false;
+        properties.info.features.maximal_reconvergence = false;
     }
     if !properties.missing.is_empty() {
         return Err(GpuError::Unsuitable {
-            device: properties.name,
+            device: properties.info.name,
             missing: properties.missing.join(", "),
         });
     }
     let plan = QueuePlan::of(instance, physical).ok_or_else(|| GpuError::Unsuitable {
-        device: properties.name.clone(),
+        device: properties.info.name.clone(),
         missing: "a queue for graphics and compute".to_owned(),
     })?;
     let request = device_request(provider, &properties, plan.requests());
@@ -107,6 +107,11 @@ pub(crate) fn open(
     let pipeline_cache = unsafe { device.create_pipeline_cache(&initial, None) }
         .map_err(GpuError::vulkan("vkCreatePipelineCache"))?;
 
+    let mut info = properties.info;
+    info.features = request.features;
+    if !plan.timestamps() {
+        info.timestamp_period = 0.0;
+    }
     let core = Arc::new(Core {
         push: ash::khr::push_descriptor::Device::new(instance, &device),
         labels,
@@ -117,7 +122,7 @@ pub(crate) fn open(
         pipeline_cache,
         shared: Shared::default(),
         kept,
-        info: device_info(properties, request.features, &plan),
+        info,
         families: plan.families(),
         physical,
         device,
@@ -157,29 +162,5 @@ impl Drop for Opening {
             }
             self.instance.destroy_instance(None);
         }
-    }
-}
-
-fn device_info(properties: Properties, features: EnabledFeatures, plan: &QueuePlan) -> DeviceInfo {
-    DeviceInfo {
-        name: properties.name,
-        driver: properties.driver,
-        api: version_text(properties.api_version),
-        kind: properties.kind,
-        limits: properties.limits,
-        subgroup_size: properties.subgroup_size,
-        least_subgroup_size: properties.least_subgroup_size,
-        timestamp_period: if plan.timestamps() {
-            properties.timestamp_period
-        } else {
-            0.0
-        },
-        features,
-        // Vulkan promises 65,536 texels, of which a list soon has more, and four storage images, where a pass reads up to 32
-        // arrays: a binder has a bit for each name that is given.
-        reads_texels: properties.kind == vk::PhysicalDeviceType::CPU
-            && properties.features.storage_formats
-            && properties.limits.storage_images >= 32
-            && properties.limits.texels >= 1 << 27,
     }
 }

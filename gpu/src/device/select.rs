@@ -33,7 +33,9 @@ pub(crate) fn ranked(
     if devices.is_empty() {
         return Err(GpuError::NoDevice);
     }
-    devices.sort_by_key(|(_, properties)| (!properties.missing.is_empty(), rank(properties.kind)));
+    devices.sort_by_key(|(_, properties)| {
+        (!properties.missing.is_empty(), rank(properties.info.kind))
+    });
     Ok(devices)
 }
 

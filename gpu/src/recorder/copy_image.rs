@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::Recorder;
-use super::transfer::{texel_bytes, whole_image};
+use super::transfer::{image_bytes, texel_bytes, whole_image};
 use crate::barrier::Scope;
 use crate::{Buffer, GpuError, Image};
 
@@ -122,24 +122,14 @@ impl Recorder {
     /// [`GpuError::OutOfRange`] where the buffer is too short;
     /// [`GpuError::ImageUnsupported`] for a format whose texel size is not known here.
     pub fn copy_to_image(&mut self, from: &Buffer, to: &Image) -> Result<(), GpuError> {
-        let desc = *to.desc();
-        let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {
-            label: to.label().to_owned(),
-            cause: format!(
-                "{:?} takes no copy; use an 8, 16 or 32-bit format",
-                desc.format
-            ),
-        })?;
-        let [width, height] = desc.extent;
-        let texels = u64::from(width) * u64::from(height) * u64::from(desc.layers);
-        from.inner.check(0, texel * texels)?;
+        from.inner.check(0, image_bytes(to, "takes no copy")?)?;
         let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
         let storage = &mut *self.storage;
         storage.clear_pass();
         storage.use_buffer(from, Scope::COPY_READ);
         storage.use_image(to, layout, Scope::COPY_WRITE, true)?;
         storage.open_pass(b"copy to image")?;
-        let region = whole_image(&desc);
+        let region = whole_image(to.desc());
         // SAFETY: both are held, the buffer is as large as the layers, and the image is in the
         // named layout.
         unsafe {

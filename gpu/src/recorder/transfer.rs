@@ -156,16 +156,7 @@ impl Recorder {
     /// [`GpuError::ImageUnsupported`] for a format whose texel size is not
     /// known here; [`GpuError::OutOfMemory`].
     pub fn read_back_image(&mut self, image: &Image) -> Result<Readback, GpuError> {
-        let desc = *image.desc();
-        let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {
-            label: image.label().to_owned(),
-            cause: format!(
-                "{:?} cannot be read back; use an 8, 16 or 32-bit format",
-                desc.format
-            ),
-        })?;
-        let [width, height] = desc.extent;
-        let bytes = texel * u64::from(width) * u64::from(height) * u64::from(desc.layers);
+        let bytes = image_bytes(image, "cannot be read back")?;
         let readback = Buffer::readback(&self.gpu, "readback", bytes)?;
         let storage = &mut *self.storage;
         storage.clear_pass();
@@ -177,7 +168,7 @@ impl Recorder {
             false,
         )?;
         storage.open_pass(b"read back")?;
-        let region = whole_image(&desc);
+        let region = whole_image(image.desc());
         // SAFETY: both are held, the buffer is as large as the layers, and the
         // image is in the named layout.
         unsafe {
@@ -290,6 +281,17 @@ pub(super) fn whole_image(desc: &ImageDesc) -> vk::BufferImageCopy {
             height,
             depth: 1,
         })
+}
+
+/// Bytes of all layers of an image without padding; `refused` says what an image of unknown texels does not do.
+pub(super) fn image_bytes(image: &Image, refused: &str) -> Result<u64, GpuError> {
+    let desc = image.desc();
+    let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {
+        label: image.label().to_owned(),
+        cause: format!("{:?} {refused}; use an 8, 16 or 32-bit format", desc.format),
+    })?;
+    let [width, height] = desc.extent;
+    Ok(texel * u64::from(width) * u64::from(height) * u64::from(desc.layers))
 }
 
 /// Bytes of a texel of the uncompressed colour and depth formats in use.

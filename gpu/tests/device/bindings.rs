@@ -4,7 +4,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, QueueKind};
 
 use vitriol_shaders::{Library, ShaderId};
 
-use crate::common::{DOUBLE, assert_silent, compile, open};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open};
 
 struct Fixture {
     gpu: Gpu,
@@ -90,11 +90,7 @@ fn a_refused_pass_leaves_the_recorder_whole() {
             .invocations(64)
             .is_err()
     );
-    rec.pass(&f.double)
-        .read("source", &f.a)
-        .write("target_", &f.b)
-        .invocations(64)
-        .unwrap();
+    dispatch(&mut rec, &f.double, [&f.a, &f.b], 64);
     let refused = rec
         .pass(&f.double)
         .read("source", &f.a)

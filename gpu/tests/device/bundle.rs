@@ -4,7 +4,7 @@ use vitriol_gpu::{
     Buffer, Bundle, ComputePipeline, Gpu, GpuError, Image, ImageDesc, QueueKind, vk,
 };
 
-use crate::common::{DOUBLE, assert_silent, compile, open, open_with};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open, open_with};
 
 const COUNT: u32 = 100_000;
 
@@ -36,19 +36,11 @@ fn a_bundle_is_ordered_as_a_pass() {
     let input: Vec<u32> = (0..COUNT).collect();
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     rec.upload(&c, &input).unwrap();
-    rec.pass(&double)
-        .read("source", &c)
-        .write("target_", &a)
-        .invocations(COUNT)
-        .unwrap();
+    dispatch(&mut rec, &double, [&c, &a], COUNT);
     rec.execute(&bundle).unwrap();
     rec.execute(&bundle).unwrap();
     // The same pipeline as before the bundles, which have bound another.
-    rec.pass(&double)
-        .read("source", &a)
-        .write("target_", &c)
-        .invocations(COUNT)
-        .unwrap();
+    dispatch(&mut rec, &double, [&a, &c], COUNT);
     let result = rec.read_back(&c).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     let expected = |x: &u32| 2 * (81 * (2 * x + 1) + 40) + 1;

@@ -1,6 +1,6 @@
 //! Helpers of the tests.
 
-use vitriol_gpu::{Gpu, Options, PlainLoader};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Options, PlainLoader, Recorder};
 use vitriol_shaders::{Compiled, Library, ShaderId};
 
 /// A device with the validation layer on.
@@ -50,3 +50,14 @@ pub const DOUBLE: &str = "
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x < arrayLength(&target_) { target_[id.x] = 2u * source[id.x] + 1u; }
 }";
+
+/// Records a pass of a shader with the bindings of [`DOUBLE`] over so many elements.
+pub fn dispatch(
+    rec: &mut Recorder,
+    pipeline: &ComputePipeline,
+    [from, to]: [&Buffer; 2],
+    count: u32,
+) {
+    let pass = rec.pass(pipeline).read("source", from).write("target_", to);
+    pass.invocations(count).unwrap();
+}

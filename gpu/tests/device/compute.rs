@@ -2,7 +2,7 @@
 
 use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
 
-use crate::common::{DOUBLE, assert_silent, compile, open};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open};
 
 const COUNT: u32 = 100_000;
 
@@ -54,11 +54,7 @@ fn submissions_follow_each_other_and_recycle() {
     for _ in 0..5 {
         for (from, to) in [(&a, &b), (&b, &a)] {
             let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-            rec.pass(&double)
-                .read("source", from)
-                .write("target_", to)
-                .invocations(64)
-                .unwrap();
+            dispatch(&mut rec, &double, [from, to], 64);
             gpu.submit(rec).unwrap();
         }
     }
@@ -107,11 +103,7 @@ fn nothing_to_do_is_no_mistake() {
     let other = Buffer::storage(&gpu, "other", 0).unwrap();
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     rec.upload::<u32>(&empty, &[]).unwrap();
-    rec.pass(&double)
-        .read("source", &empty)
-        .write("target_", &other)
-        .invocations(0)
-        .unwrap();
+    dispatch(&mut rec, &double, [&empty, &other], 0);
     gpu.submit(rec).unwrap().wait().unwrap();
     assert_silent(&gpu);
 }
@@ -258,11 +250,7 @@ fn a_shader_has_one_pipeline_on_a_device() {
     let [from, to] = ["from", "to"].map(|label| Buffer::storage(&gpu, label, 4 * 64).unwrap());
     rec.upload(&from, &[3_u32; 64]).unwrap();
     let again = double(&gpu, DOUBLE);
-    rec.pass(&again)
-        .read("source", &from)
-        .write("target_", &to)
-        .invocations(64)
-        .unwrap();
+    dispatch(&mut rec, &again, [&from, &to], 64);
     drop(again);
     let result = rec.read_back(&to).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();

@@ -2,7 +2,7 @@
 
 use vitriol_gpu::{Buffer, ComputePipeline, CopyRegion, GpuError, QueueKind};
 
-use crate::common::{DOUBLE, assert_silent, compile, open};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open};
 
 #[test]
 fn what_goes_up_comes_down() {
@@ -127,11 +127,7 @@ fn what_is_in_use_outlives_its_handles() {
         let first = Buffer::storage(&gpu, "first", bytes).unwrap();
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
         rec.fill(&first, 3).unwrap();
-        rec.pass(&double)
-            .read("source", &first)
-            .write("target_", &last)
-            .invocations(count)
-            .unwrap();
+        dispatch(&mut rec, &double, [&first, &last], count);
         // Pipeline, buffer and the commands' own handles go while it runs.
         gpu.submit(rec).unwrap()
     };

@@ -14,7 +14,7 @@ fn devices_are_listed_and_described() {
     let all = list_devices().unwrap();
     assert!(
         all.iter()
-            .any(|device| device.name == gpu.info().name && device.missing.is_empty())
+            .any(|device| device.info.name == gpu.info().name && device.missing.is_empty())
     );
     assert!(
         all[0]

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use vitriol_gpu::{Buffer, ComputePipeline, Image, ImageDesc, LockWaits, QueueKind, vk};
 
-use crate::common::{DOUBLE, assert_silent, compile, open};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open};
 
 #[test]
 fn a_ticket_orders_the_queues() {
@@ -18,11 +18,7 @@ fn a_ticket_orders_the_queues() {
     for _ in 0..4 {
         for (kind, from, to) in [(QueueKind::Async, &a, &b), (QueueKind::Main, &b, &a)] {
             let mut rec = gpu.recorder(kind).unwrap();
-            rec.pass(&double)
-                .read("source", from)
-                .write("target_", to)
-                .invocations(count)
-                .unwrap();
+            dispatch(&mut rec, &double, [from, to], count);
             let after: Vec<_> = last.iter().collect();
             last = Some(gpu.submit_after(rec, &after).unwrap());
         }
@@ -39,11 +35,7 @@ fn what_is_written_ahead_is_there_for_what_comes_next() {
     let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 256).unwrap());
     let written = gpu.write_ahead(&a, &[3_u32; 64]).unwrap();
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    rec.pass(&double)
-        .read("source", &a)
-        .write("target_", &b)
-        .invocations(64)
-        .unwrap();
+    dispatch(&mut rec, &double, [&a, &b], 64);
     gpu.submit(rec).unwrap().wait().unwrap();
     assert!(written.is_done().unwrap());
     assert_eq!(gpu.read::<u32>(&b).unwrap(), [7; 64]);
@@ -79,11 +71,7 @@ fn recorders_of_several_threads() {
                 gpu.write(&a, &[start; 64]).unwrap();
                 for _ in 0..8 {
                     let mut rec = gpu.recorder(QueueKind::Async).unwrap();
-                    rec.pass(double)
-                        .read("source", &a)
-                        .write("target_", &b)
-                        .invocations(64)
-                        .unwrap();
+                    dispatch(&mut rec, double, [&a, &b], 64);
                     gpu.submit(rec).unwrap().wait().unwrap();
                     assert_eq!(gpu.read::<u32>(&b).unwrap(), [2 * start + 1; 64]);
                 }

@@ -2,7 +2,7 @@
 
 use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, Timestamps};
 
-use crate::common::{DOUBLE, assert_silent, compile, open, open_with};
+use crate::common::{DOUBLE, assert_silent, compile, dispatch, open, open_with};
 
 #[test]
 fn every_pass_is_timed_under_its_label() {
@@ -30,11 +30,7 @@ fn every_pass_is_timed_under_its_label() {
             .unwrap();
         // More than one pool of 512.
         for _ in 0..600 {
-            rec.pass(&double)
-                .read("source", &c)
-                .write("target_", &d)
-                .invocations(64)
-                .unwrap();
+            dispatch(&mut rec, &double, [&c, &d], 64);
         }
         let ticket = gpu.submit(rec).unwrap();
         ticket.wait().unwrap();
@@ -71,11 +67,7 @@ fn a_submission_is_timed_as_a_whole() {
     let time = |passes: u32| {
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
         for _ in 0..passes {
-            rec.pass(&double)
-                .read("source", &a)
-                .write("target_", &b)
-                .invocations(count)
-                .unwrap();
+            dispatch(&mut rec, &double, [&a, &b], count);
         }
         let ticket = gpu.submit(rec).unwrap();
         ticket.wait().unwrap();

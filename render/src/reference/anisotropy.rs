@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use super::buckets::Buckets;
 use super::eigen::eigen_symmetric;
-use super::grid::Grid;
 use super::parallel;
 use super::surroundings::Surroundings;
 
@@ -73,7 +73,7 @@ impl Anisotropy {
 
     /// Each particle's shape.
     pub fn shapes(&self, positions: &[DVec3], surroundings: &dyn Surroundings) -> Vec<Shape> {
-        let grid = Grid::new(positions, self.radius);
+        let grid = Buckets::of_points(positions, self.radius);
         let nodes = self.nodes();
         parallel::map(positions.len(), |i| {
             let mut sums = Sums::ZERO;

@@ -1,5 +1,5 @@
 //! Boxes sorted into the cubic cells that they reach into, for those that may
-//! hold a place.
+//! hold a place; and points, for those that are near one.
 
 use glam::{DVec3, IVec3};
 
@@ -20,12 +20,22 @@ pub(super) struct Buckets {
 impl Buckets {
     /// Cells of edge `cell` over boxes given by centre and half extent, finite.
     pub(super) fn new(boxes: &[(DVec3, DVec3)], cell: f64) -> Self {
+        Self::sorted(boxes, cell, MOST_CELLS)
+    }
+
+    /// Cells of edge `cell` around finite points. Far-flung ones make it larger, so that there are no more than a few cells each.
+    pub(super) fn of_points(points: &[DVec3], cell: f64) -> Self {
+        let boxes: Vec<_> = points.iter().map(|&at| (at, DVec3::ZERO)).collect();
+        Self::sorted(&boxes, cell, 64.0 * points.len() as f64 + 4096.0)
+    }
+
+    fn sorted(boxes: &[(DVec3, DVec3)], cell: f64, most: f64) -> Self {
         let low = boxes.iter().map(|(at, half)| at - half);
         let low = low.reduce(DVec3::min).unwrap_or_default();
         let high = boxes.iter().map(|(at, half)| at + half);
         let high = high.reduce(DVec3::max).unwrap_or_default();
         let mut cell = cell;
-        while ((high - low) / cell + 1.0).element_product() > MOST_CELLS {
+        while ((high - low) / cell + 1.0).element_product() > most {
             cell *= 1.25;
         }
         let size = ((high - low) / cell).floor().as_ivec3() + 1;
@@ -58,12 +68,33 @@ impl Buckets {
 
     /// Indices of the boxes that may hold `at`.
     pub(super) fn around(&self, at: DVec3) -> &[u32] {
-        let cell = ((at - self.low) / self.cell).floor().as_ivec3();
+        let cell = self.coordinates(at);
         if cell.cmplt(IVec3::ZERO).any() || cell.cmpge(self.size).any() {
             return &[];
         }
         let cell = self.index(cell);
         &self.boxes[self.first[cell] as usize..self.first[cell + 1] as usize]
+    }
+
+    /// Calls `visit` with the index of each point that may lie within `reach`
+    /// of `at`; some lie farther away.
+    pub(super) fn near(&self, at: DVec3, reach: f64, mut visit: impl FnMut(usize)) {
+        let from = self.coordinates(at - reach).max(IVec3::ZERO);
+        let to = self.coordinates(at + reach).min(self.size - 1);
+        for z in from.z..=to.z {
+            for y in from.y..=to.y {
+                if from.x > to.x {
+                    continue;
+                }
+                // A row of cells is one stretch of points.
+                let row = self.index(IVec3::new(from.x, y, z));
+                let end = self.index(IVec3::new(to.x, y, z)) + 1;
+                let stretch = self.first[row] as usize..self.first[end] as usize;
+                for &point in &self.boxes[stretch] {
+                    visit(point as usize);
+                }
+            }
+        }
     }
 
     /// Lower and upper corner of the cell that `at` is in.
@@ -78,8 +109,8 @@ impl Buckets {
     }
 
     fn each_cell(&self, (at, half): (DVec3, DVec3), mut visit: impl FnMut(usize)) {
-        let cell = |at: DVec3| ((at - self.low) / self.cell).floor().as_ivec3();
-        let (from, to) = (cell(at - half), cell(at + half).min(self.size - 1));
+        let from = self.coordinates(at - half);
+        let to = self.coordinates(at + half).min(self.size - 1);
         for z in from.z..=to.z {
             for y in from.y..=to.y {
                 for x in from.x..=to.x {
@@ -87,6 +118,10 @@ impl Buckets {
                 }
             }
         }
+    }
+
+    fn coordinates(&self, at: DVec3) -> IVec3 {
+        ((at - self.low) / self.cell).floor().as_ivec3()
     }
 
     fn index(&self, cell: IVec3) -> usize {

@@ -21,6 +21,19 @@ pub const MASS: f32 = 1000.0 * SPACING * SPACING * SPACING;
 /// Rows of the list that the buffers hold.
 const CAPACITY: usize = 96;
 
+/// Places of particles in so many layers over `foot`, within `radius` (m) of the axis.
+pub fn upright_cylinder(foot: Vec3, radius: f32, layers: usize) -> Vec<Vec3> {
+    let mut places = Vec::new();
+    for n in 0..layers * 16 * 16 {
+        let [x, y, z] = [n % 16, n / 256, n / 16 % 16];
+        let at = SPACING * Vec3::new(x as f32 - 7.5, y as f32 + 0.5, z as f32 - 7.5);
+        if at.with_y(0.0).length() < radius {
+            places.push(foot + at);
+        }
+    }
+    places
+}
+
 /// Particles on the device.
 pub struct Liquid {
     positions: Buffer,

@@ -1,7 +1,7 @@
 //! The meniscus at a vessel's wall, against Young and Laplace's equation integrated in f64: a panel under a vessel is seen from above,
 //! through a surface that climbs its wall.
 
-use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
+use crate::liquid::{Liquid, clear_rig, draw, frame, upright_cylinder};
 use crate::panel::image;
 use crate::rig::{cylinder, linear, ray};
 use glam::{Affine3A, Quat, Vec3};
@@ -17,7 +17,7 @@ const EYE: f64 = 0.3;
 const BELOW: f64 = 0.004;
 const SIDE: f32 = 0.06;
 /// Layers of particles.
-const LAYERS: u32 = 5;
+const LAYERS: usize = 5;
 const WATER: f64 = 1.333;
 /// Share of light from below that a level surface of water lets through.
 const PASSES: f64 = 0.98;
@@ -61,14 +61,7 @@ fn arrives(across: f64, height: f64, slope: f64) -> f64 {
 fn a_meniscus_is_young_and_laplaces() {
     let mut rig = clear_rig(EXTENT);
     rig.set_vessels(vec![cylinder([RADIUS, RADIUS + 0.002], FLOOR, 0.04)]);
-    let mut places = Vec::new();
-    for n in 0..LAYERS * 16 * 16 {
-        let [x, y, z] = [n % 16, n / 256, n / 16 % 16];
-        let at = SPACING * Vec3::new(x as f32 - 7.5, y as f32 + 0.5, z as f32 - 7.5);
-        if at.with_y(0.0).length() < 0.0205 {
-            places.push(FOOT + Vec3::Y * FLOOR as f32 + at);
-        }
-    }
+    let places = upright_cylinder(FOOT + Vec3::Y * FLOOR as f32, 0.0205, LAYERS);
     let liquid = Liquid::new(&rig, &places, |_| 0.0);
     let image = image(&rig);
     let eye = FOOT + Vec3::Y * EYE as f32;

@@ -1,7 +1,7 @@
 //! The window's light on the bench under a vessel of water against rays in f64, and the reflection at the vessel's base against Snell's
 //! law.
 
-use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
+use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig, upright_cylinder};
 use crate::rig::{Picture, cylinder, displayed, linear, ray};
 use glam::{Affine3A, DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -21,15 +21,7 @@ fn beaker(base: f64) -> VesselDesc {
 }
 
 fn water(foot: Vec3, base: f64, layers: usize) -> Vec<Vec3> {
-    let mut places = Vec::new();
-    for n in 0..layers * 16 * 16 {
-        let [x, y, z] = [n % 16, n / 256, n / 16 % 16];
-        let at = SPACING * Vec3::new(x as f32 - 7.5, y as f32 + 0.5, z as f32 - 7.5);
-        if at.with_y(0.0).length() < 0.0193 {
-            places.push(foot + Vec3::Y * base as f32 + at);
-        }
-    }
-    places
+    upright_cylinder(foot + Vec3::Y * base as f32, 0.0193, layers)
 }
 
 /// The light that a picture shows as `shown`: the tone mapping, undone.

@@ -2,7 +2,7 @@
 //! from the axis (Bouguer), whatever glass is between: at x from the axis it passes through 2 √(r² − (x/n)²) of liquid, up to the glass's
 //! own outline.
 
-use crate::liquid::{Liquid, SPACING, draw, frame, rig};
+use crate::liquid::{Liquid, draw, frame, rig, upright_cylinder};
 use crate::rig::{cylinder, displayed, linear, ray};
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, SurfaceFilter, View};
@@ -23,14 +23,7 @@ const LIGHT: [f64; 2] = [0.38, 0.40];
 fn a_full_cylinder_is_a_lens() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
     rig.set_vessels(vec![cylinder([RADIUS, OUTER], 0.002, 0.05)]);
-    let mut places = Vec::new();
-    for n in 0..9 * 16 * 16 {
-        let [x, y, z] = [n % 16, n / 256, n / 16 % 16];
-        let at = SPACING * Vec3::new(x as f32 - 7.5, y as f32 + 0.5, z as f32 - 7.5);
-        if at.with_y(0.0).length() < 0.0193 {
-            places.push(FOOT + Vec3::Y * 0.002 + at);
-        }
-    }
+    let places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 9);
     let eye = FOOT + Vec3::new(0.0, 0.013, 0.3);
     let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.2, 4.0 / 3.0));
     let vessels = [Affine3A::from_translation(FOOT)];

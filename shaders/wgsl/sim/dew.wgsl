@@ -5,7 +5,6 @@
 //!include common/chemistry/dew.wgsl
 //!include common/chemistry/humid_air.wgsl
 //!include common/chemistry/puff.wgsl
-//!include common/glass/glass_rings.wgsl
 //!include common/glass/vessel.wgsl
 
 /// Δt_f, s.

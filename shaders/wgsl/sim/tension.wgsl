@@ -18,8 +18,6 @@
 override TENSION: f32 = 0.0;
 /// Blocks from which on the table is full, and tension is left out.
 override MOST_BLOCKS: u32 = 48u;
-/// The energy of a flat surface on this grid, in σ.
-override FLAT: f32 = 1.0;
 /// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle, over the
 /// share of it that comes to particles.
 override HYSTERESIS: f32 = 0.0;

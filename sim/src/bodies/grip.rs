@@ -33,32 +33,17 @@ pub const RELEASE_SPIN_MAX: f32 = 31.4;
 /// A hand's memory from one step to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct GripState {
-    closed: bool,
+    pub(super) closed: bool,
     held: Option<Held>,
     /// It was absent in the last step.
     away: bool,
-    /// It is there, and was absent in the step before.
-    back: bool,
-    /// It took hold in this step.
-    took: bool,
+    /// It is there, and was absent in the step before, so that its way to where it is is unknown.
+    pub(super) back: bool,
+    /// It closed in this step: a body that it holds was moved by the other hand, or by none, until then.
+    pub(super) took: bool,
 }
 
 impl GripState {
-    /// Whether the hand is tracked again after it was absent in the step before, so that its way to where it is is unknown.
-    pub(super) fn is_back(&self) -> bool {
-        self.back
-    }
-
-    /// Whether the hand closed in this step: a body that it holds was moved by the other hand, or by none, until then.
-    pub(super) fn has_just_taken(&self) -> bool {
-        self.took
-    }
-
-    /// Whether it is closed.
-    pub(super) fn is_closed(&self) -> bool {
-        self.closed
-    }
-
     /// Whether it closed in this step without taking hold of a body.
     pub(super) fn closes_on_nothing(&self) -> bool {
         self.took && self.held.is_none()

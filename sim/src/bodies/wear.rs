@@ -71,7 +71,7 @@ impl Wearing {
         if let (Some(on), Some(gloves)) = (&mut self.worn.gloves, of_role(Role::Gloves)) {
             for hand in 0..hands.len() {
                 let (own, other) = (&hands[hand], &hands[1 - hand]);
-                if !(own.present && other.present && grips[hand].is_closed()) {
+                if !(own.present && other.present && grips[hand].closed) {
                     self.pulls[hand] = false;
                 }
                 if !own.present {

@@ -422,7 +422,7 @@ impl Bodies {
             let (linear, _) = grip::velocity_between(before, target, Vec3::ZERO, self.step);
             let fast = linear.length() > HELD_SPEED_MAX * self.length_scale;
             let grip = &self.state.grips[hand];
-            if grip.has_just_taken() || !(all || fast || grip.is_back()) {
+            if grip.took || !(all || fast || grip.back) {
                 continue;
             }
             let past = &mut self.state.past[index];

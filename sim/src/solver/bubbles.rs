@@ -1,6 +1,7 @@
 //! Line 26, of vapour: bubbles, and their part of the state.
 
 use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS};
+use super::spray::add;
 use super::{Solver, SolverError, lanes};
 use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::table::steam_enthalpy;
@@ -119,29 +120,21 @@ impl BubbleState {
     pub(super) fn account(&self) -> VapourAccount {
         let mut account = VapourAccount::default();
         for bubble in self.records() {
-            for (sum, part) in account.held.iter_mut().zip([bubble.mass, bubble.enthalpy]) {
-                *sum += f64::from(part);
-            }
-            for (sum, part) in account.air.iter_mut().zip([bubble.air, bubble.air_gone]) {
-                *sum += f64::from(part);
-            }
-            for (sum, part) in account.gone.iter_mut().zip(bubble.gone) {
-                *sum += f64::from(part);
-            }
+            let held = [bubble.mass, bubble.enthalpy];
+            add(&mut account.held, held.map(f64::from));
+            let air = [bubble.air, bubble.air_gone];
+            add(&mut account.air, air.map(f64::from));
+            add(&mut account.gone, bubble.gone.map(f64::from));
         }
         let air = self.merging.iter().map(|joins| f64::from(joins[2]));
         account.air[0] += JOINED[0] * air.sum::<f64>();
-        let joining = self.merging.iter().map(|joins| (joins[..2].iter(), JOINED));
-        let given = self.bubbled.iter().map(|given| (given[..2].iter(), QUANTA));
-        for (quanta, units) in given {
-            for ((sum, &count), unit) in account.pending.iter_mut().zip(quanta).zip(units) {
-                *sum += f64::from(count) * unit;
-            }
+        for given in &self.bubbled {
+            let parts = [0, 1].map(|k| f64::from(given[k]) * QUANTA[k]);
+            add(&mut account.pending, parts);
         }
-        for (quanta, units) in joining {
-            for ((sum, &count), unit) in account.held.iter_mut().zip(quanta).zip(units) {
-                *sum += f64::from(count) * unit;
-            }
+        for joins in &self.merging {
+            let parts = [0, 1].map(|k| f64::from(joins[k]) * JOINED[k]);
+            add(&mut account.held, parts);
         }
         account
     }

@@ -46,12 +46,13 @@ pub(super) const LENT: [(&str, &str); 6] = [
     ("wall_before", "density"),
 ];
 
-/// Makes [`Buffers`] of a table: label, and words by the [`Sizes`] `$s`. Those of particles come first.
+/// Makes [`Buffers`] of a table: label and words, by the numbers that are computed first. Those of particles come first.
 macro_rules! buffers {
     (
-        |$s:ident|
+        |$spec:ident, $count:ident, $grid:ident| { $($numbers:tt)* }
         of particles { $($(#[$doc:meta])* $name:ident: $words:expr,)* }
         others { $($(#[$other_doc:meta])* $other:ident: $other_words:expr,)* }
+        uploads { $($table:ident: $bytes:ident,)* }
     ) => {
         /// Device memory, labelled as in the shaders.
         pub(super) struct Buffers {
@@ -64,11 +65,21 @@ macro_rules! buffers {
         const ALL: usize = OF_PARTICLES + [$(stringify!($other)),*].len() + 9;
 
         impl Buffers {
-            fn sized(gpu: &Gpu, $s: &Sizes) -> Result<Self, GpuError> {
-                Ok(Self {
+            /// The buffers of a scene; records the upload of its tables.
+            pub(super) fn new(
+                gpu: &Gpu,
+                rec: &mut Recorder,
+                $spec: &SolverSpec<'_>,
+                $count: u32,
+                $grid: &Grid,
+            ) -> Result<Self, GpuError> {
+                $($numbers)*
+                let buffers = Self {
                     $($name: Buffer::storage(gpu, stringify!($name), 4 * ($words))?,)*
                     $($other: Buffer::storage(gpu, stringify!($other), 4 * ($other_words))?,)*
-                })
+                };
+                $(rec.upload(&buffers.$table, &$bytes)?;)*
+                Ok(buffers)
             }
 
             /// All that passes bind, those first that grow with the number of particles.
@@ -92,270 +103,183 @@ macro_rules! buffers {
 }
 
 buffers! {
-    |s|
+    |spec, count, grid| {
+        // Elements, and 0 where a scene has no use for a buffer: first particles, and those of them that have heat, contents, and so on.
+        let parameters = &spec.parameters;
+        let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
+        let chemistry = parameters.chemistry.as_ref();
+        let bubbles = parameters.bubbles();
+        let places = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
+        let drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
+        let is_physical = matches!(chemistry, Some(Chemistry::Physical(_)));
+        let n = u64::from(count);
+        let pushed = where_asked(spec.loads, n);
+        let heated = where_asked(chemistry.is_some(), n);
+        let physical = where_asked(is_physical, n);
+        let diffused = where_asked(matches!(chemistry, Some(Chemistry::Paper(_))), n);
+        let bubbly = where_asked(bubbles.is_some(), n);
+        let falling = where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n);
+        let sprayed = where_asked(drops > 0, n);
+        let steams = with_steam(parameters).is_some();
+        let confined = where_asked(parameters.vorticity > 0.0, n);
+        // Blocks of surface tension's nodes, and the nodes.
+        let blocks = u64::from(Colour::new(parameters, count).slots);
+        let blocks = where_asked(parameters.surface.is_some(), blocks);
+        let nodes = colour::BLOCK_NODES * blocks;
+        let sticks = parameters.sticks();
+        let flasks = spec.flasks.len() as u64;
+        let [sleep, awake_args, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
+        let rings = wall_heat::ring_count(chemistry, spec.flasks.len()) as u64;
+        let dew = dew_places(parameters, spec.flasks.len()) as u64;
+        let puffs = where_asked(steams, PUFFS.into());
+        let groups = u64::from(count.div_ceil(LOAD_GROUP));
+        let feed = match chemistry {
+            Some(Chemistry::Physical(physical)) => physical.lamella.map(|_| physical.feed),
+            _ => None,
+        };
+        let mut solution = bytes_of(is_physical.then(|| SolutionTable::new().rows()));
+        solution.extend(bytes_of(feed.map(|feed| Lamellae::of(feed).rows())));
+        let dew_rows = bytes_of((dew > 0).then(|| dew_rows(spec.flasks)));
+    }
     of particles {
-        position: 4 * s.n,
+        position: 4 * n,
         /// w: the carried multiplier.
-        velocity: 4 * s.n,
+        velocity: 4 * n,
         /// (membership, identity).
-        tags: 2 * s.n,
-        list_origin: 4 * s.n,
-        list_counts: s.n,
-        list: s.listed,
+        tags: 2 * n,
+        list_origin: 4 * n,
+        list_counts: n,
+        list: grid.places(count) + grid.long(count),
         /// Where in the list those are that are longer than a particle's place; a snapshot has them in the particles' order.
-        long_lists: s.n + 1,
+        long_lists: n + 1,
         // Scratch of one substep.
-        trial: 4 * s.n,
-        solved: 4 * s.n,
-        boundary: 4 * s.n,
-        multiplier: s.n,
-        new_velocity: 4 * s.n,
-        vorticity: 4 * s.confined,
+        trial: 4 * n,
+        solved: 4 * n,
+        boundary: 4 * n,
+        multiplier: n,
+        new_velocity: 4 * n,
+        vorticity: 4 * confined,
         // Scratch of a rebuild.
-        sorted_position: 4 * s.n,
-        sorted_tags: 2 * s.n,
-        sorted_push: 4 * s.pushed,
+        sorted_position: 4 * n,
+        sorted_tags: 2 * n,
+        sorted_push: 4 * pushed,
         // Chemistry: state, and scratch of one substep and of a rebuild.
-        heat: 4 * s.heated,
-        diffused: 2 * s.diffused,
-        mixing: 4 * s.heated,
-        sorted_heat: 4 * s.heated,
+        heat: 4 * heated,
+        diffused: 2 * diffused,
+        mixing: 4 * heated,
+        sorted_heat: 4 * heated,
         /// (c, h in J/kg, y, mass over V0·ρ0) of each particle.
-        matter: 4 * s.physical,
-        sorted_matter: 4 * s.physical,
+        matter: 4 * physical,
+        sorted_matter: 4 * physical,
         /// Heat and steam that particles exchanged with their surroundings, by identity ([`SolverState::ledger`](super::SolverState)).
-        ledger: 4 * s.physical,
+        ledger: 4 * physical,
         /// Volume, density and vapour.
-        bulk: 4 * s.physical,
-        sorted_bulk: 4 * s.physical,
+        bulk: 4 * physical,
+        sorted_bulk: 4 * physical,
         /// Diffusivity of the unresolved eddies (m²/s) and variance of the acid fraction.
-        eddies: 2 * s.physical,
-        sorted_eddies: 2 * s.physical,
+        eddies: 2 * physical,
+        sorted_eddies: 2 * physical,
         /// What of its exchange a particle may keep, by slot.
-        kept: s.physical,
+        kept: physical,
         // Coupling with the rigid bodies.
-        wall_push: 4 * s.pushed,
+        wall_push: 4 * pushed,
         // Reports.
-        density: s.n,
+        density: n,
         // Surface tension's nodes.
-        colour_keys: 2 * s.slots,
-        colour_used: s.slots,
-        colour_blocks: 4 * s.slots,
-        colour_around: colour::AROUND * s.slots,
-        colour: s.nodes,
-        colour_solid: 2 * s.nodes,
-        interface_stress: 4 * s.nodes,
-        smooth_colour: 4 * s.nodes,
-        curvature: s.nodes,
+        colour_keys: 2 * blocks,
+        colour_used: blocks,
+        colour_blocks: 4 * blocks,
+        colour_around: colour::AROUND * blocks,
+        colour: nodes,
+        colour_solid: 2 * nodes,
+        interface_stress: 4 * nodes,
+        smooth_colour: 4 * nodes,
+        curvature: nodes,
         /// Force per volume with which walls hold the surface's line, by cell.
-        line_hold: 4 * s.held_nodes,
+        line_hold: 4 * where_asked(sticks, nodes),
         /// Acceleration with which walls hold particles at the surface's line (m/s²), and as w whose wall it is, by identity.
-        held: 4 * s.held,
+        held: 4 * where_asked(sticks, n),
         /// Sums of the exchange of bubbles with particles (mass, enthalpy, gas and more) in whole quanta, by identity.
-        bubbled: BUBBLED_WORDS as u64 * s.bubbly,
+        bubbled: BUBBLED_WORDS as u64 * bubbly,
         /// What of the density at each particle is cavities', in whole quanta; 0 between substeps.
-        cavities: 4 * s.bubbly,
+        cavities: 4 * bubbly,
         /// Share of a particle's neighbourhood that cavities take, by slot.
-        hollow: s.bubbly,
+        hollow: bubbly,
         /// Gas volume of particles, the one that it goes to (V0), conductance of the bubbles around, and nucleation delay (s), by identity.
-        gas: 4 * s.bubbly,
+        gas: 4 * bubbly,
         /// Boiling state of particles, which bubbles read, by slot.
-        boils: 4 * s.bubbly,
+        boils: 4 * bubbly,
         /// Mass, acid and enthalpy that drops exchange with particles, in whole quanta, by identity.
-        sprayed: SPRAYED_WORDS as u64 * s.sprayed,
+        sprayed: SPRAYED_WORDS as u64 * sprayed,
         /// Greatest speed of a particle's fall (m/s; negative after it plunged) and width of its stream (m), by identity.
-        falls: 2 * s.falling,
+        falls: 2 * falling,
         /// Mass and enthalpy of the steam of each particle of which puffs were made, by identity.
-        vented: 2 * s.steaming,
+        vented: 2 * where_asked(steams, n),
     }
     others {
         colour_args: 8,
         counters: size_of::<Counters>() as u64 / 4,
-        cell_counts: s.cells,
-        cell_starts: s.cells,
-        block_counts: s.blocks,
+        cell_counts: u64::from(grid.cells()),
+        cell_starts: u64::from(grid.cells()),
+        block_counts: u64::from(grid.blocks()),
         list_args: 12,
         /// Particles of cells during a rebuild, where the list keeps those of liquid that sleeps.
-        cell_items: s.own_items,
+        cell_items: grid.own_items(count),
         /// Number of particles that are awake, of those that rebuilds sort, and by flask whether its liquid sleeps.
-        sleep: s.sleep,
+        sleep: sleep,
         /// Sizes of the dispatches over particles that do not sleep.
-        awake_args: s.awake_args,
+        awake_args: awake_args,
         /// What was noted of each flask to tell.
-        flask_sleeps: s.flask_sleeps,
+        flask_sleeps: flask_sleeps,
         /// The table of the solution, and that of its lamellae behind it.
-        solution: words_of(&s.solution),
+        solution: words_of(&solution),
         /// Records of bubbles before and after a step.
-        bubbles: 2 * BUBBLE_WORDS as u64 * s.bubbles,
+        bubbles: 2 * BUBBLE_WORDS as u64 * places,
         /// By bubble's place, the particle at which a bubble is to be born, plus one; behind them the size of the dispatch that lists places.
-        claims: s.claims,
+        claims: where_asked(bubbles.is_some(), places + SIZE_WORDS),
         /// By step and bubble: quanta of steam, enthalpy and air of the bubbles that join it.
-        merging: 6 * s.bubbles,
+        merging: 6 * places,
         /// By set of records and bubble, the place that takes its half if it divides, plus one.
-        splits: 2 * s.bubbles,
+        splits: 2 * places,
         /// Places that have a bubble or drops, by set of records.
-        live: s.live,
+        live: where_asked(bubbles.is_some(), places + 2),
         /// Sizes of the dispatches over them.
         live_args: 16,
         /// Drops that bubbles threw up.
-        drops: DROPS_WORDS as u64 * s.drops,
+        drops: DROPS_WORDS as u64 * drops,
         /// By flask: quanta of gas that its bubbles let go since the last step, and the flow of it (m³/s, bits of an f32).
-        venting: 2 * s.vented_flasks,
+        venting: 2 * where_asked(bubbles.is_some(), flasks),
         /// By flask: quanta of drops of its liquid that came to rest elsewhere.
-        spray_left: s.sprayed_flasks,
+        spray_left: where_asked(drops > 0, flasks),
         /// By flask and ring: T (°C) and its rounding remainder.
-        glass: 2 * s.rings,
+        glass: 2 * rings,
         /// By flask and ring: quanta of heat that the liquid took from the glass in this frame.
-        glass_taken: s.rings,
+        glass_taken: rings,
         /// By flask and row of its wall: places that liquid touched in this frame, a bit each.
-        wetted: s.dew / AROUND as u64,
+        wetted: dew / AROUND as u64,
         /// Water on the flasks' inner walls.
-        dew: s.dew * size_of::<Dew>() as u64 / 4,
-        dew_rows: words_of(&s.dew_rows),
-        puffs: s.puffs * size_of::<Puff>() as u64 / 4,
+        dew: dew * size_of::<Dew>() as u64 / 4,
+        dew_rows: words_of(&dew_rows),
+        puffs: puffs * size_of::<Puff>() as u64 / 4,
         /// By puff: quanta of water that condensed on walls in this frame.
-        taken: s.puffs,
+        taken: puffs,
         /// Counts of puffs made, and of water that was washed off glass.
-        made: s.made,
+        made: where_asked(steams, COUNTS as u64),
         /// Size of the dispatch of turnovers, and what it follows from.
         turnover_plan: PLAN_WORDS,
-        poses: bytes_of_poses(s.substeps, s.flasks) / 4,
-        loads: s.loads,
+        poses: bytes_of_poses(parameters.substeps, flasks) / 4,
+        loads: where_asked(spec.loads, 12 * groups * flasks),
     }
-}
-
-/// Numbers of elements from which the buffers' sizes follow; 0 where a scene has no use for a buffer.
-struct Sizes {
-    /// Particles, and those of them that have heat, contents, and so on.
-    n: u64,
-    pushed: u64,
-    heated: u64,
-    physical: u64,
-    diffused: u64,
-    bubbly: u64,
-    falling: u64,
-    sprayed: u64,
-    steaming: u64,
-    confined: u64,
-    held: u64,
-    listed: u64,
-    cells: u64,
-    blocks: u64,
-    own_items: u64,
-    sleep: u64,
-    awake_args: u64,
-    flask_sleeps: u64,
-    /// Blocks of surface tension's nodes, and the nodes.
-    slots: u64,
-    nodes: u64,
-    held_nodes: u64,
-    bubbles: u64,
-    claims: u64,
-    live: u64,
-    drops: u64,
-    vented_flasks: u64,
-    sprayed_flasks: u64,
-    rings: u64,
-    dew: u64,
-    puffs: u64,
-    made: u64,
-    flasks: u64,
-    substeps: u32,
-    loads: u64,
-    solution: Vec<u8>,
-    dew_rows: Vec<u8>,
+    uploads {
+        solution: solution,
+        dew_rows: dew_rows,
+    }
 }
 
 fn words_of(bytes: &[u8]) -> u64 {
     bytes.len() as u64 / 4
 }
 
-impl Sizes {
-    fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid) -> Self {
-        let parameters = &spec.parameters;
-        let n = u64::from(count);
-        let flasks = spec.flasks.len() as u64;
-        let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
-        let groups = u64::from(count.div_ceil(LOAD_GROUP));
-        let chemistry = parameters.chemistry.as_ref();
-        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
-        let feed = match chemistry {
-            Some(Chemistry::Physical(physical)) => physical.lamella.map(|_| physical.feed),
-            _ => None,
-        };
-        let bubbles = parameters.bubbles();
-        let places = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
-        let drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
-        let slots = where_asked(
-            parameters.surface.is_some(),
-            Colour::new(parameters, count).slots.into(),
-        );
-        let nodes = colour::BLOCK_NODES * slots;
-        let sticks = parameters.sticks();
-        let steams = with_steam(parameters).is_some();
-        let dew = dew_places(parameters, spec.flasks.len());
-        let mut solution = bytes_of(physical.then(|| SolutionTable::new().rows()));
-        solution.extend(bytes_of(feed.map(|feed| Lamellae::of(feed).rows())));
-        let [sleep, awake_args, flask_sleeps] = sleep::words(parameters, spec.flasks.len());
-        let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
-        Self {
-            n,
-            pushed: where_asked(spec.loads, n),
-            heated: where_asked(chemistry.is_some(), n),
-            physical: where_asked(physical, n),
-            diffused: where_asked(matches!(chemistry, Some(Chemistry::Paper(_))), n),
-            bubbly: where_asked(bubbles.is_some(), n),
-            falling: where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n),
-            sprayed: where_asked(drops > 0, n),
-            steaming: where_asked(steams, n),
-            confined: where_asked(parameters.vorticity > 0.0, n),
-            held: where_asked(sticks, n),
-            listed: grid.places(count) + grid.long(count),
-            cells: grid.cells().into(),
-            blocks: grid.blocks().into(),
-            own_items: grid.own_items(count),
-            sleep,
-            awake_args,
-            flask_sleeps,
-            slots,
-            nodes,
-            held_nodes: where_asked(sticks, nodes),
-            bubbles: places,
-            claims: where_asked(bubbles.is_some(), places + SIZE_WORDS),
-            live: where_asked(bubbles.is_some(), places + 2),
-            drops,
-            vented_flasks: where_asked(bubbles.is_some(), flasks),
-            sprayed_flasks: where_asked(drops > 0, flasks),
-            rings: wall_heat::ring_count(chemistry, spec.flasks.len()) as u64,
-            dew: dew as u64,
-            puffs: where_asked(steams, PUFFS.into()),
-            made: where_asked(steams, COUNTS as u64),
-            flasks,
-            substeps: parameters.substeps,
-            loads: where_asked(spec.loads, 12 * groups * flasks),
-            solution,
-            dew_rows: bytes_of(dew_rows),
-        }
-    }
-}
-
 fn bytes_of<T: bytemuck::NoUninit>(rows: Option<Vec<T>>) -> Vec<u8> {
     rows.map_or(Vec::new(), |rows| bytemuck::cast_slice(&rows).to_vec())
-}
-
-impl Buffers {
-    /// The buffers of a scene; records the upload of its tables.
-    pub(super) fn new(
-        gpu: &Gpu,
-        rec: &mut Recorder,
-        spec: &SolverSpec<'_>,
-        count: u32,
-        grid: &Grid,
-    ) -> Result<Self, GpuError> {
-        let sizes = Sizes::new(spec, count, grid);
-        let buffers = Self::sized(gpu, &sizes)?;
-        rec.upload(&buffers.solution, &sizes.solution)?;
-        rec.upload(&buffers.dew_rows, &sizes.dew_rows)?;
-        Ok(buffers)
-    }
 }

@@ -62,11 +62,6 @@ impl SprayState {
     /// Sums of the drops' liquid by where it is.
     pub(super) fn account(&self) -> SprayAccount {
         let mut account = SprayAccount::default();
-        let add = |sum: &mut SprayedLiquid, parts: [f64; 3]| {
-            for (sum, part) in sum.iter_mut().zip(parts) {
-                *sum += part;
-            }
-        };
         for drops in self.records() {
             if drops.mass > 0.0 {
                 let held = [drops.mass, drops.acid, drops.enthalpy];
@@ -80,9 +75,11 @@ impl SprayState {
         }
         account
     }
+}
 
-    /// Mass that came to rest elsewhere than in the flask that it came from, over V0·ρ0.
-    pub(super) fn left(&self, flask: usize) -> f64 {
-        spray_left(self.left.get(flask))
+/// Adds each part to its sum.
+pub(super) fn add<const N: usize>(sums: &mut [f64; N], parts: [f64; N]) {
+    for (sum, part) in sums.iter_mut().zip(parts) {
+        *sum += part;
     }
 }

@@ -6,7 +6,7 @@ use super::grid::Grid;
 use super::matter::Start;
 use super::sleep::{self, SleepState};
 use super::spec::Particle;
-use super::spray::{SprayAccount, SprayState};
+use super::spray::{SprayAccount, SprayState, spray_left};
 use super::steam::{SteamPasses, SteamState};
 use super::wall_heat;
 use crate::chemistry::Chemistry;
@@ -164,7 +164,7 @@ impl SolverState {
 
     /// Mass of drops that came from the liquid in a flask and came to rest elsewhere, over that of a particle at rest density.
     pub fn spray_left(&self, flask: usize) -> f64 {
-        self.spray.left(flask)
+        spray_left(self.spray.left.get(flask))
     }
 
     /// Mass, acid and enthalpy of the drops' liquid by where it is.
@@ -180,7 +180,7 @@ impl SolverState {
     /// Water on the flasks' inner walls: by flask, from the inner floor up, and around from +X towards +Z; empty where none
     /// condenses.
     pub fn dew(&self) -> &[Dew] {
-        self.steam.dew()
+        bytemuck::cast_slice(&self.steam.dew)
     }
 
     /// Places of [`Self::dew`], mutable.
@@ -196,12 +196,17 @@ impl SolverState {
 
     /// Mass of the water that liquid washed off its vessels' walls, kg: too little to be added to the liquid.
     pub fn washed_mass(&self) -> f64 {
-        QUANTUM * self.steam.washed() as f64
+        let quanta = match self.steam.made[..] {
+            [.., low, high] => u64::from(low) | (u64::from(high) << 32),
+            _ => 0,
+        };
+        QUANTUM * quanta as f64
     }
 
     /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.
     pub fn mist(&self) -> f64 {
-        self.steam.mist()
+        let puffs = self.steam.puffs.iter();
+        puffs.map(|puff| f64::from(puff[10])).sum()
     }
 
     /// Whether the particle in a slot is still there.

@@ -10,7 +10,7 @@ use crate::chemistry::wall_heat::RINGS;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
-use vitriol_shaders::layout::{self, Step};
+use vitriol_shaders::layout::Step;
 use vitriol_shaders::{Library, sim};
 
 /// Assumptions of `sim/dew.wgsl`: room for all puffs in a workgroup's memory, and two rings of the glass a row.
@@ -46,26 +46,6 @@ pub(super) struct SteamState {
     pub(super) made: Vec<u32>,
     /// Water on the flasks' walls, by place: the words of `Dew`.
     pub(super) dew: Vec<[u32; 4]>,
-}
-
-impl SteamState {
-    /// Mass of the mist, kg.
-    pub(super) fn mist(&self) -> f64 {
-        self.puffs.iter().map(|puff| f64::from(puff[10])).sum()
-    }
-
-    /// Quanta of water that liquid washed off glass.
-    pub(super) fn washed(&self) -> u64 {
-        match self.made[..] {
-            [.., low, high] => u64::from(low) | (u64::from(high) << 32),
-            _ => 0,
-        }
-    }
-
-    /// Its water on glass.
-    pub(super) fn dew(&self) -> &[layout::Dew] {
-        bytemuck::cast_slice(&self.dew)
-    }
 }
 
 impl SteamPasses {

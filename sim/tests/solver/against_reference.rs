@@ -91,9 +91,7 @@ fn displacement_and_commit() {
             found[i].position.distance(truth.positions[i])
         });
         assert!(error < PLACE, "{i} is off by {error} m");
-        let (error, i) = worst(0..found.len(), |i| {
-            found[i].velocity.distance(truth.velocities[i])
-        });
+        let (error, i) = velocity_error(&found, &truth);
         assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
         assert!(
             found
@@ -121,12 +119,7 @@ fn viscosity_and_moving_glass() {
         ..single_substeps()
     };
     let setup = scene(p.clone());
-    let time = SUBSTEP as f32;
-    let start = glass_pose();
-    let after = Pose::new(
-        start.position + Vec3::new(0.5, 0.1, 0.0) * time,
-        Quat::from_rotation_y(2.0 * time) * start.orientation,
-    );
+    let after = moved_glass();
     let (found, truth) = both(&device, &setup, after);
     let without = Setup {
         parameters: Parameters {
@@ -142,9 +135,7 @@ fn viscosity_and_moving_glass() {
     assert!(effect > 0.02, "{effect}");
     // The glass's own velocity is a difference of poses that the GPU has in
     // f32: an orientation's last bit is 6e-8 · 0.06 m / Δt = 4e-6 m/s.
-    let (error, i) = worst(0..found.len(), |i| {
-        found[i].velocity.distance(truth.velocities[i])
-    });
+    let (error, i) = velocity_error(&found, &truth);
     assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
 }
 

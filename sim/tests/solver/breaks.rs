@@ -24,12 +24,9 @@ fn world(gpu: &Gpu, scene: &Scene, breakable: bool) -> World {
 
 fn hands(stood: Vec3, step: usize) -> StepInput {
     let lifted = STEP * (step.clamp(LIFTS, LIFTED) - LIFTS) as f32;
-    let hand = Hand {
-        stage_from_grip: Pose::from_position(stood + Vec3::new(0.05, 0.05 + lifted, 0.0)),
-        squeeze: f32::from(u8::from((1..LETS_GO).contains(&step))),
-        present: true,
-    };
-    StepInput::of_hands([hand, Hand::ABSENT])
+    let at = Pose::from_position(stood + Vec3::new(0.05, 0.05 + lifted, 0.0));
+    let squeeze = f32::from(u8::from((1..LETS_GO).contains(&step)));
+    StepInput::of_hands([tracked_hand(at, squeeze), Hand::ABSENT])
 }
 
 mod long {

@@ -172,11 +172,7 @@ fn the_liquid_does_not_feel_a_leap() {
         // Without acceleration, after the jerk of the beginning: what is foreseen of the hand holds.
         let carried = Vec3::new(0.002, 0.004, 0.0) * step as f32;
         let grip = Pose::from_position(stood + Vec3::new(0.05, 0.05, 0.0) + carried);
-        let held = Hand {
-            stage_from_grip: moved.compose(grip),
-            squeeze: if step > 0 { 1.0 } else { 0.0 },
-            present: true,
-        };
+        let held = tracked_hand(moved.compose(grip), if step > 0 { 1.0 } else { 0.0 });
         StepInput::of_hands([held, Hand::ABSENT])
     };
     for step in 0..30 {

@@ -38,11 +38,20 @@ pub fn single_substeps() -> Parameters {
     }
 }
 
-/// [`single_substeps`] without gravity, so that a lone particle keeps its velocity.
+/// [`single_substeps`] without gravity: a lone particle keeps its velocity.
 pub fn weightless() -> Parameters {
     Parameters {
         gravity: [0.0; 3],
         ..single_substeps()
+    }
+}
+
+/// A hand that is seen.
+pub fn tracked_hand(stage_from_grip: Pose, squeeze: f32) -> Hand {
+    Hand {
+        stage_from_grip,
+        squeeze,
+        present: true,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Substeps and iterations that change while it runs.
 
-use crate::common::{AWAY, coarse_beaker, densities};
+use crate::common::{AWAY, coarse_beaker, densities, tracked_hand};
 use glam::{Quat, Vec3};
 use std::f64::consts::TAU;
 use vitriol_gpu::Gpu;
@@ -43,11 +43,8 @@ fn it_is_as_if_it_had_been_made_so() {
     let stood = changed.poses()[0].position;
     let hand = |step: u32| {
         let lifted = Vec3::Y * (0.004 * step as f32);
-        let held = Hand {
-            stage_from_grip: Pose::from_position(stood + Vec3::new(0.05, 0.05, 0.0) + lifted),
-            squeeze: if step > 0 { 1.0 } else { 0.0 },
-            present: true,
-        };
+        let at = Pose::from_position(stood + Vec3::new(0.05, 0.05, 0.0) + lifted);
+        let held = tracked_hand(at, if step > 0 { 1.0 } else { 0.0 });
         StepInput::of_hands([held, Hand::ABSENT])
     };
     for step in 0..12 {
@@ -109,14 +106,8 @@ fn shaken(gpu: &Gpu, wall_step: Option<f64>) -> (f64, u32) {
         let aside = ramp * 2.7 / pace * (pace * time).sin();
         let up = lift + ramp * 0.8 / pace * (1.3 * pace * time).sin();
         let turn = ramp * f64::to_radians(900.0) / pace * (pace * time).sin();
-        Hand {
-            stage_from_grip: Pose::new(
-                grip + Vec3::new(aside as f32, up as f32, 0.0),
-                Quat::from_rotation_z(turn as f32),
-            ),
-            squeeze: 1.0,
-            present: true,
-        }
+        let at = grip + Vec3::new(aside as f32, up as f32, 0.0);
+        tracked_hand(Pose::new(at, Quat::from_rotation_z(turn as f32)), 1.0)
     };
     let (mut most, mut substeps, mut furthest) = (0.0_f64, 0, 0.0_f32);
     for step in 1..=120 {

@@ -1,7 +1,7 @@
 //! Line 28: vorticity confinement; with surface tension, against the reference.
 
 use crate::common::*;
-use crate::leaning_glass::{PLACE, both, glass_pose, scene, worst};
+use crate::leaning_glass::{PLACE, both, glass_pose, moved_glass, scene, velocity_error, worst};
 use glam::{DVec3, Quat, Vec3};
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, QueueKind};
 use vitriol_shaders::{Library, sim};
@@ -134,11 +134,7 @@ fn forces_are_the_references() {
         surface,
         ..without.clone()
     };
-    let start = glass_pose();
-    let after = Pose::new(
-        start.position + Vec3::new(0.5, 0.1, 0.0) * SUBSTEP as f32,
-        Quat::from_rotation_y(2.0 * SUBSTEP as f32) * start.orientation,
-    );
+    let after = moved_glass();
     let lanes = if device.info().features.subgroups {
         8
     } else {
@@ -203,9 +199,7 @@ fn tension_through_a_mouth_is_the_references() {
         let (found, truth) = both(&device, &setup, glass_pose());
         let inside = truth.membership.iter().filter(|of| of.is_some()).count();
         assert!((150..280).contains(&inside), "{inside}");
-        let (error, i) = worst(0..found.len(), |i| {
-            found[i].velocity.distance(truth.velocities[i])
-        });
+        let (error, i) = velocity_error(&found, &truth);
         assert!(
             error < PLACE / SUBSTEP,
             "{lanes} lanes: {i} is off by {error} m/s"

@@ -221,12 +221,7 @@ fn a_tool_fills_a_hand() {
     let gloves = world.tools()[of_kind(ToolKind::Gloves)].position;
     assert!(!world.is_in_reach(gloves + Vec3::Y * 0.1));
     for (squeeze, holds) in [(0.0, false), (1.0, true), (1.0, true), (0.0, false)] {
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(at),
-            squeeze,
-            present: true,
-        };
-        let hands = [Hand::ABSENT, hand];
+        let hands = [Hand::ABSENT, tracked_hand(Pose::from_position(at), squeeze)];
         world.step(&StepInput::of_hands(hands)).unwrap();
         assert_eq!([0, 1].map(|hand| world.holds(hand)), [false, holds]);
         assert_eq!(world.tool_holder(cloth), holds.then_some(1));

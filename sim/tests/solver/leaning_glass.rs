@@ -34,6 +34,16 @@ pub fn glass_pose() -> Pose {
     Pose::new(Vec3::new(0.01, 0.0, 0.02), lean)
 }
 
+/// Where it is after a substep on its way, at 0.5 m/s and 2 rad/s.
+pub fn moved_glass() -> Pose {
+    let start = glass_pose();
+    let time = SUBSTEP as f32;
+    Pose::new(
+        start.position + Vec3::new(0.5, 0.1, 0.0) * time,
+        Quat::from_rotation_y(2.0 * time) * start.orientation,
+    )
+}
+
 pub fn scene(parameters: Parameters) -> Setup {
     let mut random = Random(7);
     let mut particles = water(&narrow_glass(), 0, glass_pose(), 800);
@@ -95,6 +105,13 @@ pub fn reference(setup: &Setup, poses: &[Pose]) -> Reference {
 pub fn worst(among: Range<usize>, of: impl Fn(usize) -> f64) -> (f64, usize) {
     let worst = among.map(|i| (of(i), i));
     worst.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+}
+
+/// Greatest difference of a velocity from the reference's, m/s, and whose.
+pub fn velocity_error(found: &[Found], truth: &Reference) -> (f64, usize) {
+    worst(0..found.len(), |i| {
+        found[i].velocity.distance(truth.velocities[i])
+    })
 }
 
 pub fn no_limiter_acted(solver: &Solver) {

@@ -1,8 +1,9 @@
 //! The paper's boundary: solid particles in place of volume maps.
 
 use crate::common::*;
-use crate::leaning_glass::{PLACE, PLANE, both, density_error, glass_pose, scene, worst};
-use glam::{Quat, Vec3};
+use crate::leaning_glass::{
+    PLACE, PLANE, both, density_error, moved_glass, scene, velocity_error, worst,
+};
 use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::flask::particles::{BoundaryParticle, sample};
@@ -51,21 +52,13 @@ fn a_substep_is_the_references() {
         relaxation: Relaxation::Jacobi { omega: 0.05 },
         ..single_substeps()
     };
-    let start = glass_pose();
-    let time = SUBSTEP as f32;
-    let after = Pose::new(
-        start.position + Vec3::new(0.5, 0.1, 0.0) * time,
-        Quat::from_rotation_y(2.0 * time) * start.orientation,
-    );
+    let after = moved_glass();
     let (by_maps, _) = both(&device, &scene(p.clone()), after);
     let (found, truth) = both(&device, &scene_of_solids(p), after);
-    let count = found.len();
-    let (other, _) = worst(0..count, |i| {
+    let (other, _) = worst(0..found.len(), |i| {
         found[i].velocity.distance(by_maps[i].velocity)
     });
-    let (error, i) = worst(0..count, |i| {
-        found[i].velocity.distance(truth.velocities[i])
-    });
+    let (error, i) = velocity_error(&found, &truth);
     assert!(other > 0.02, "{other}");
     assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
 }

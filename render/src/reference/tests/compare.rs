@@ -143,25 +143,30 @@ fn interior_leaves_out_what_is_seen_edgewise() {
     assert!(interior.pixels().count() > 20_000);
 }
 
+/// Compares two eyes' pictures where by the truth both see the liquid.
+fn reprojected(truths: &[Picture; 2], pictures: [&Picture; 2]) -> Difference {
+    let interiors = truths.each_ref().map(|truth| Interior::new(truth, SPACING));
+    let seen = [0, 1].map(|k| Seen {
+        truth: &truths[k],
+        interior: &interiors[k],
+    });
+    reprojection(pictures, seen, SPACING)
+}
+
 #[test]
 fn what_both_eyes_see_fits() {
     let [left, right] = [eye(-0.03), eye(0.03)];
     for normal in [DVec3::Z, DVec3::new(0.5, 0.3, 1.0).normalize()] {
         let truths = [&left, &right].map(|rays| draw(rays, plane(normal)));
-        let interiors = truths.each_ref().map(|truth| Interior::new(truth, SPACING));
-        let seen = [0, 1].map(|k| Seen {
-            truth: &truths[k],
-            interior: &interiors[k],
-        });
         let [a, b] = &truths;
-        let found = reprojection([a, b], seen, SPACING);
+        let found = reprojected(&truths, [a, b]);
         assert!(found.pixels > 5000 && found.depth_rms < 1e-3, "{found:?}");
         assert!(found.normal_angle < 1e-3, "{found:?}");
         // A right picture that is nearer by a quarter of a radius along the rays.
         let nearer = draw(&right, |eye, ray| {
             plane(normal)(eye, ray).map(|(depth, way)| (depth - 0.25 * RADIUS, way))
         });
-        let found = reprojection([a, &nearer], seen, SPACING);
+        let found = reprojected(&truths, [a, &nearer]);
         assert!((found.depth_rms - 0.25).abs() < 1e-3, "{found:?}");
     }
 }
@@ -173,16 +178,11 @@ fn an_eye_taken_for_symmetric_is_found_out() {
     let [left, right] = [eye(-0.03), eye(0.03)];
     let normal = DVec3::new(1.0, 0.0, 1.0).normalize();
     let truths = [&left, &right].map(|rays| draw(rays, plane(normal)));
-    let interiors = truths.each_ref().map(|truth| Interior::new(truth, SPACING));
-    let seen = [0, 1].map(|k| Seen {
-        truth: &truths[k],
-        interior: &interiors[k],
-    });
     let shift = LEFT.left.tan() + LEFT.right.tan();
     let shifted = draw(&right, |eye, ray| {
         plane(normal)(eye, ray + DVec3::X * f64::from(shift))
     });
-    let found = reprojection([&truths[0], &shifted], seen, SPACING);
+    let found = reprojected(&truths, [&truths[0], &shifted]);
     assert!(found.depth_rms > 5.0, "{found:?}");
 }
 
@@ -192,12 +192,7 @@ fn a_part_behind_another_is_not_compared() {
     let [left, right] = [eye(-0.03), eye(0.03)];
     let both = |eye: DVec3, ray: DVec3| ball(0.03)(eye, ray).or_else(|| Some((0.7 / -ray.z, 0.01)));
     let truths = [&left, &right].map(|rays| draw(rays, both));
-    let interiors = truths.each_ref().map(|truth| Interior::new(truth, SPACING));
-    let seen = [0, 1].map(|k| Seen {
-        truth: &truths[k],
-        interior: &interiors[k],
-    });
-    let found = reprojection([&truths[0], &truths[1]], seen, SPACING);
+    let found = reprojected(&truths, [&truths[0], &truths[1]]);
     // Bilinear on the ball.
     assert!(found.depth_rms < 0.02, "{found:?}");
 }

@@ -150,17 +150,14 @@ impl Inputs {
             Input::Button { button, down } => match (button, down) {
                 (MouseButton::Left, true) if self.is_held(DeskKey::Orbit) => self.turning = true,
                 (MouseButton::Left, true) => self.press(),
-                (MouseButton::Left, false) => {
-                    if !std::mem::take(&mut self.turning) {
-                        self.release();
-                    }
-                }
+                (MouseButton::Left, false) if std::mem::take(&mut self.turning) => {}
+                (MouseButton::Left, false) => self.release(),
                 (MouseButton::Right, down) => self.tilting = down.then(|| self.place()),
                 (MouseButton::Middle, true) => self.middle = Some(0.0),
-                (MouseButton::Middle, false) => {
-                    if self.middle.take().is_some_and(|way| way < CLICKS) {
-                        self.press_key(DeskKey::OtherHand);
-                    }
+                (MouseButton::Middle, false)
+                    if self.middle.take().is_some_and(|way| way < CLICKS) =>
+                {
+                    self.press_key(DeskKey::OtherHand);
                 }
                 _ => {}
             },

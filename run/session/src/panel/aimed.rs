@@ -31,7 +31,6 @@ mod tests {
 
     use egui::{Event, pos2};
 
-    use super::*;
     use crate::info::{Info, Shown};
     use crate::panel::{input, view};
     use vitriol_run::texts::Texts;

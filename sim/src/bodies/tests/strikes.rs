@@ -59,11 +59,8 @@ fn weight_is_no_blow() {
     let mut bodies = world(vec![beaker(above_table(0.0))]);
     let side = above_table(0.05).position + Vec3::new(RADIUS, 0.0, 0.0);
     for n in 0..180 {
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(side),
-            squeeze: f32::from(u8::from((60..120).contains(&n))),
-            present: true,
-        };
+        let squeeze = f32::from(u8::from((60..120).contains(&n)));
+        let hand = hand(Pose::from_position(side), squeeze);
         let loads = if n < 3 { [Load::default()] } else { [load] };
         bodies.step(&[hand, Hand::ABSENT], &loads);
         assert_eq!(bodies.strikes(), [], "step {n}");
@@ -82,11 +79,7 @@ fn a_flask_that_is_put_down_knocks_once() {
             ..1.0 => 0.05,
             _ => (0.05 - 0.2 * (time - 1.0)).max(0.0),
         };
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(at + Vec3::Y * height),
-            squeeze: 1.0,
-            present: true,
-        };
+        let hand = hand(Pose::from_position(at + Vec3::Y * height), 1.0);
         [hand, Hand::ABSENT]
     };
     let blows = blows(&mut bodies, 2.0, hands);
@@ -103,12 +96,7 @@ fn under_the_table_nothing_is_struck() {
         let aside = 0.5 * (time - 1.5).clamp(0.0, 1.0) - 0.5 * (time - 2.5).clamp(0.0, 1.0);
         let height = 0.4 * (time - 0.3).clamp(0.0, 1.0);
         let at = Vec3::new(2.3 - RADIUS - aside, 0.05 + height, 0.0);
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(at),
-            squeeze: 1.0,
-            present: true,
-        };
-        [hand, Hand::ABSENT]
+        [hand(Pose::from_position(at), 1.0), Hand::ABSENT]
     };
     assert_eq!(blows(&mut bodies, 4.0, hands), []);
     assert!(bodies.holder(0).is_some());
@@ -132,12 +120,8 @@ fn what_comes_over_the_edge_has_not_fallen() {
     };
     let hands = |n: usize| {
         let [x, y] = at(n);
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(Vec3::new(x - RADIUS, y + 0.05, 0.0)),
-            squeeze: f32::from(u8::from(n > 2)),
-            present: true,
-        };
-        [hand, Hand::ABSENT]
+        let at = Pose::from_position(Vec3::new(x - RADIUS, y + 0.05, 0.0));
+        [hand(at, f32::from(u8::from(n > 2))), Hand::ABSENT]
     };
     let blows = blows(&mut bodies, 1.5, hands);
     assert_eq!(blows.len(), 1, "{blows:?}");
@@ -163,12 +147,8 @@ fn a_larger_world_is_struck_as_hard() {
     for (speed, count) in [(0.1, 1), (0.01, 0)] {
         let hands = |n: usize| {
             let height = (0.005 - speed * (n as f32 * STEP - 0.2).max(0.0)).max(0.0);
-            let hand = Hand {
-                stage_from_grip: Pose::from_position(20.0 * Vec3::new(RADIUS, 0.05 + height, 0.0)),
-                squeeze: 1.0,
-                present: true,
-            };
-            [hand, Hand::ABSENT]
+            let at = 20.0 * Vec3::new(RADIUS, 0.05 + height, 0.0);
+            [hand(Pose::from_position(at), 1.0), Hand::ABSENT]
         };
         let blows = blows_in(0.005, &hands);
         assert_eq!(blows.len(), count, "{speed}: {blows:?}");
@@ -192,12 +172,8 @@ fn glass_meets_glass() {
     let hands = |n: usize| {
         let time = n as f32 * STEP;
         let aside = 0.5 * (time - 0.3).clamp(0.0, 0.1);
-        let hand = Hand {
-            stage_from_grip: Pose::from_position(at + Vec3::new(aside, 0.003, 0.0)),
-            squeeze: 1.0,
-            present: true,
-        };
-        [hand, Hand::ABSENT]
+        let at = at + Vec3::new(aside, 0.003, 0.0);
+        [hand(Pose::from_position(at), 1.0), Hand::ABSENT]
     };
     let blows = blows(&mut bodies, 1.0, hands);
     let struck: Vec<_> = blows.iter().filter(|it| it.other == Some(1)).collect();

@@ -57,10 +57,7 @@ fn errors(parameters: Parameters, lanes: u32) -> Errors {
         inner: worst(all.clone(), |i| if inside(i) { difference(i) } else { 0.0 }).0,
         temperature: worst(all.clone(), difference).0,
         acid: worst(all.clone(), |i| (heat[i][1] - paper.acid[i]).abs()).0,
-        velocity: worst(all.clone(), |i| {
-            found[i].velocity.distance(truth.velocities[i])
-        })
-        .0,
+        velocity: velocity_error(&found, &truth).0,
         changed: [
             worst(all.clone(), |i| (heat[i][0] - start(i).temperature).abs()).0,
             worst(all.clone(), |i| (heat[i][1] - start(i).acid).abs()).0,
