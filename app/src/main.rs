@@ -56,8 +56,8 @@ fn takes_colours() -> bool {
     asked && std::io::stderr().is_terminal()
 }
 
-/// The error without clap's tip to give an unknown option or subcommand as a track or a file: it is a mistyped one. clap names no kind of
-/// a tip, so this one is told by the command line that it ends with: `-- ` and the word.
+/// The error without clap's tip to give an unknown option or subcommand as a track or a file: it is a mistyped one. clap gives tips no
+/// kind; this one ends with `-- `, the word and a quote.
 fn plain(mut error: clap::Error) -> clap::Error {
     let word = error.get(ContextKind::InvalidArg);
     let advised = match word.or_else(|| error.get(ContextKind::InvalidSubcommand)) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use vitriol_lesson::{Attempt, Rubric, Score, Texts};
+use vitriol_lesson::{Attempt, Lesson, Rubric, Score, Texts};
 use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
 use vitriol_record::{Cap, KeepError, Keeping, Points, Scored, Session, keep};
@@ -53,8 +53,8 @@ pub struct Sitting<'a> {
     pub source: Option<&'a Path>,
     /// The folder for statements.
     pub out: Option<&'a Path>,
-    /// What they are scored by.
-    pub rubric: &'a Rubric,
+    /// The lesson, if there is one: it is named beside the attempts, and its caps are theirs.
+    pub lesson: Option<&'a Lesson>,
 }
 
 /// What is needed to keep attempts, found before anything is simulated.
@@ -108,15 +108,16 @@ pub fn keep_under(
         return Ok(None);
     };
     let texts = Texts::english().other()?;
+    let rubric = sitting.lesson.map(Lesson::rubric).unwrap_or_default();
     let attempts: Vec<Scored> = attempts
         .iter()
-        .map(|it| scored(it, sitting.rubric, &texts))
+        .map(|it| scored(it, &rubric, &texts))
         .collect();
     let kept = keep(&Keeping {
         class,
         pseudonym,
         session: sitting.session,
-        lesson: None,
+        lesson: sitting.lesson.map(|it| it.name.as_str()),
         source: sitting.source,
         attempts: &attempts,
         out: sitting.out,
@@ -228,5 +229,31 @@ mod tests {
         // 60 of 100, rounded down to whole points: both are whole, so that no bit differs.
         assert_eq!(cap.max, (60.0 * of / 100.0).floor());
         assert_eq!(caps(false).1, []);
+    }
+
+    #[test]
+    fn an_attempt_is_kept_with_its_lesson() {
+        let folder = tempfile::tempdir().unwrap();
+        let class = folder.path().join("class.sqlite");
+        let args = KeepArgs {
+            pseudonym: Some("p07".parse().unwrap()),
+            class: Some(class.clone()),
+            ..KeepArgs::default()
+        };
+        let keeper = keeper(&args).unwrap();
+        let dilute = Lesson::builtin("dilute").unwrap();
+        for (lesson, name) in [(Some(&dilute), Some("dilute")), (None, None)] {
+            let sitting = Sitting {
+                session: Session::now(),
+                source: None,
+                out: None,
+                lesson,
+            };
+            let kept = keep_under(&args, &keeper, &sitting, &[Attempt::default()]).unwrap();
+            assert_eq!(kept.unwrap().new, 1);
+            let store = Store::open_existing(&class).unwrap();
+            let kept = store.attempt(sitting.session.attempt_id(0)).unwrap();
+            assert_eq!(kept.lesson.as_deref(), name);
+        }
     }
 }

@@ -253,7 +253,7 @@ fn replay(
     let place = |name: &str| folder.join(name).display().to_string();
     Ok(Replayed {
         #[cfg(feature = "class")]
-        kept: record.keep(&folder, &rubric, &report.attempts)?,
+        kept: record.keep(&folder, judged.map(|(lesson, _)| lesson), &report.attempts)?,
         texts,
         report: report.without_series(),
         report_json: place(REPORT_JSON),

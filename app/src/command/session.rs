@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 use vitriol_gpu::{Gpu, Timestamps, vk};
-use vitriol_lesson::{Rubric, Texts};
+use vitriol_lesson::Texts;
 use vitriol_run::{Blame, Failure, Format, Scenes, emit, track};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sound::Device;
@@ -137,12 +137,11 @@ impl<'a> Prepared<'a> {
     /// What could not be kept, after the report; [`Failure::Other`] where that cannot be written.
     pub fn end(self, mut report: SessionReport) -> Result<(), Failure> {
         let course = self.options.course.as_ref();
-        let rubric: Rubric = course.map(|it| it.lesson.rubric()).unwrap_or_default();
         let sitting = Sitting {
             session: sitting(self.args, self.begun),
             source: self.args.record.as_deref(),
             out: None,
-            rubric: &rubric,
+            lesson: course.map(|it| &it.lesson),
         };
         let attempts = &report.outcome.attempts;
         let kept = keeping::keep_under(&self.args.keep, &self.keeper, &sitting, attempts);

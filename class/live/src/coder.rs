@@ -343,7 +343,8 @@ mod tests {
         use super::*;
         use vitriol_console::State;
 
-        /// A page that only reads answers nothing but pings; the hub takes 30 s of silence for its end, and closes the socket at once.
+        /// A page that only reads answers nothing but pings, which come every 10 s; the hub takes 30 s of silence for its end. If only the
+        /// first ping came, that would be after 40 s.
         #[test]
         fn a_page_that_only_reads_is_served_on() {
             let (hub, Console { port, .. }) = ada(true);
@@ -355,7 +356,7 @@ mod tests {
                     ..State::default()
                 });
                 page.hear_state().unwrap();
-                if begun.elapsed() > Duration::from_secs(35) {
+                if begun.elapsed() > Duration::from_secs(45) {
                     break;
                 }
                 std::thread::sleep(Duration::from_millis(100));

@@ -1,4 +1,4 @@
-//! Properties of the opened device.
+//! Properties of a device.
 
 use std::ffi::{CStr, CString};
 
@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::needs;
 
-/// Properties of the opened device.
+/// Properties of a device.
 #[derive(Clone, Debug)]
 pub struct DeviceInfo {
     /// Device name.
@@ -25,7 +25,7 @@ pub struct DeviceInfo {
     pub least_subgroup_size: u32,
     /// Nanoseconds per timestamp tick; zero where the device has none.
     pub timestamp_period: f32,
-    /// Optional features that are on.
+    /// Optional features: those that are on, or of a device that is only listed all that it has.
     pub features: EnabledFeatures,
     /// Whether compute passes read arrays as texel buffers: on a
     /// software driver, see `Compiled::with_texels`.

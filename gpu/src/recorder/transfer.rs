@@ -283,7 +283,8 @@ pub(super) fn whole_image(desc: &ImageDesc) -> vk::BufferImageCopy {
         })
 }
 
-/// Bytes of all layers of an image without padding; `refused` says what an image of unknown texels does not do.
+/// Bytes of all layers of an image without padding. For a format whose texel size is not known, the error says that it `refused`: "takes
+/// no copy", for example.
 pub(super) fn image_bytes(image: &Image, refused: &str) -> Result<u64, GpuError> {
     let desc = image.desc();
     let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {

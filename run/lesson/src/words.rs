@@ -59,7 +59,7 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
         let text = texts.wrong(attempt, incident);
         say(Some(incident.t_s), Tone::Bad, text, more);
     }
-    // Drops too few for a boil-over can reach skin: then what boiled did not go well, points or not.
+    // Fewer drops than a boil-over counts can reach skin. The criterion then has all its points, and is no success all the same.
     let boiled_onto_skin = attempt.incidents.iter().any(|it| {
         matches!(it.what, What::OnSkin { .. }) && matches!(it.cause, Cause::Boiling { .. })
     });

@@ -247,7 +247,7 @@ impl Panel {
     }
 }
 
-/// What the whole panel takes in, with these events.
+/// egui's input for the whole panel, with these events.
 fn input(events: Vec<Event>) -> RawInput {
     let [width, height] = PANEL.map(|side| side as f32);
     RawInput {

@@ -251,21 +251,31 @@ fn a_restored_sleep_goes_on_with_the_same_bits() {
     setup.loads = true;
     let solver = setup.solver(&gpu);
     let pose = |x: f32| [Pose::IDENTITY, at(x, 0.0, 0.0)];
-    fall_asleep(&gpu, &solver, &pose(0.3), 0);
-    frame(&gpu, &solver, &pose(0.3), &pose(0.305));
-    assert_eq!(solver.awake().unwrap(), 300);
-    let state = solver.snapshot().unwrap();
-    let fresh = setup.solver(&gpu);
-    fresh.restore(&state).unwrap();
-    let then = |solver: &Solver| {
-        let loads = frame(&gpu, solver, &pose(0.305), &pose(0.3));
+    let loads = |solver: &Solver, from: f32, to: f32| {
+        let loads = frame(&gpu, solver, &pose(from), &pose(to));
         let loads = [0, 1].map(|flask: usize| loads[flask].impulse);
         assert!(loads[0][1] < 0.0, "{loads:?}");
+        loads.map(|impulse| impulse.map(f32::to_bits))
+    };
+    let taken_up = || {
+        let fresh = setup.solver(&gpu);
+        fresh.restore(&solver.snapshot().unwrap()).unwrap();
+        fresh
+    };
+    fall_asleep(&gpu, &solver, &pose(0.3), 0);
+    // Also where all sleeps.
+    let fresh = taken_up();
+    let [on, anew] = [&solver, &fresh].map(|it| loads(it, 0.3, 0.3));
+    assert_eq!(on, anew);
+    frame(&gpu, &solver, &pose(0.3), &pose(0.305));
+    assert_eq!(solver.awake().unwrap(), 300);
+    let fresh = taken_up();
+    let then = |solver: &Solver| {
+        let loads = loads(solver, 0.305, 0.3);
         // The sleeper is woken too.
         frame(&gpu, solver, &pose(0.3), &[at(0.005, 0.0, 0.0), other]);
         frames(&gpu, solver, &[at(0.005, 0.0, 0.0), other], 3);
-        let bits = loads.map(|impulse| impulse.map(f32::to_bits));
-        (solver.snapshot().unwrap(), bits)
+        (solver.snapshot().unwrap(), loads)
     };
     let [(on, loads), (anew, same)] = [&solver, &fresh].map(then);
     assert!(on == anew);

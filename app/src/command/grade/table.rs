@@ -299,7 +299,7 @@ pub fn text(class: &Class, words: &Words) -> String {
     text
 }
 
-/// Sentences and words in one line: a comma stands after words alone.
+/// Notes in one line: a space follows a sentence, a comma anything else.
 fn in_one(notes: &[String]) -> String {
     let mut line = String::new();
     for note in notes {

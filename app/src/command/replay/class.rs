@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use vitriol_lesson::{Attempt, Rubric};
+use vitriol_lesson::{Attempt, Lesson};
 use vitriol_record::{Session, Timestamp};
 use vitriol_run::{Blame, Experiment, Failure, Format};
 use vitriol_xr::track::Track;
@@ -89,21 +89,21 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// Keeps the attempts, scored by `rubric`, with statements in the folder `out`; `None` without a pseudonym.
+    /// Keeps the attempts, of that lesson if one is named, with statements in the folder `out`; `None` without a pseudonym.
     ///
     /// # Errors
     /// As [`keeping::keep_under`].
     pub fn keep(
         &self,
         out: &Path,
-        rubric: &Rubric,
+        lesson: Option<&Lesson>,
         attempts: &[Attempt],
     ) -> Result<Option<Kept>, Failure> {
         let sitting = Sitting {
             session: self.session,
             source: Some(self.source),
             out: Some(out),
-            rubric,
+            lesson,
         };
         keeping::keep_under(&self.args.keep, &self.keeper, &sitting, attempts)
     }

@@ -193,6 +193,7 @@ fn an_older_file_gets_its_caps() {
     for kept in [entry("p07", 1), second] {
         assert_eq!(store.attempt(kept.id).unwrap(), kept);
     }
+    assert_eq!(students(&store)[0].1, 2);
 }
 
 #[test]

@@ -64,7 +64,7 @@ impl Amount {
         (self.warm > 0.0).then(|| self.warmth / self.warm)
     }
 
-    /// The incident that this liquid is.
+    /// The incident of this liquid, with its times and its mean place.
     pub fn incident(&self, bench: &Bench, what: What, cause: Cause) -> Event {
         Event::Incident(Incident {
             t_s: self.begun,
