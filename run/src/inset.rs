@@ -7,6 +7,7 @@ use vitriol_sim::world::World;
 
 use crate::camera::{Camera, Colour, Shot};
 use crate::canvas::Canvas;
+use crate::director::size;
 use crate::failure::Failure;
 use crate::legend::SIZE;
 use crate::scenery::drawn_liquid;
@@ -20,17 +21,19 @@ const FRAME: usize = 3;
 const MARGIN: usize = 16;
 /// Smallest film that has room for it beside the glass, pixels.
 const LEAST_FILM: [u32; 2] = [960, 540];
-/// Its picture's width over the glass's.
+/// Its picture's width over the glass's, at least.
 const WIDER: f32 = 1.25;
-/// From the liquid's surface to the eye, m: that of the film, a little higher, so that the surface is seen from above.
+/// What it shows below the liquid's surface and above the rim, in the glass's radii: drops that leave are seen over the rim.
+const BEYOND: f32 = 0.5;
+/// From the middle of surface and rim to the eye, m: that of the film, a little higher, so that the surface is seen from above.
 const EYE: Vec3 = Vec3::new(0.0, 0.40, 0.62);
 
 /// Pictures of a glass in which it boils.
 pub struct Inset {
     camera: Camera,
     flask: usize,
-    /// Depth of its liquid at the start, m of the scene.
-    depth: f32,
+    /// Height of what is looked at over the flask's foot, m of the scene: half-way from the liquid's surface at the start to the rim.
+    middle: f32,
     field: f32,
     /// When it begins, s after the scene's start.
     from: f64,
@@ -61,12 +64,12 @@ impl Inset {
             liquid: Some(drawn_liquid(world)),
             ..shot
         };
-        let radius = scene.flasks[flask].profile.outer_radius();
+        let (middle, field) = framing(size(scene, flask), volume as f32);
         Ok(Self {
             camera: Camera::new(world.gpu(), library, scene, &shot)?,
             flask,
-            depth: (volume / (std::f64::consts::PI * radius * radius)) as f32,
-            field: 2.0 * (WIDER * radius as f32 / EYE.length()).atan(),
+            middle,
+            field,
             from,
             pictures: Vec::new(),
         })
@@ -86,12 +89,8 @@ impl Inset {
         if now <= self.from + SHOWS {
             self.camera.show_like(film);
             // In a hand that swirls it stays in the picture's middle.
-            let surface = world.poses()[self.flask].position + self.depth * Vec3::Y;
-            self.camera.view = View::look_at(
-                surface + Quat::from_rotation_y(turn) * EYE,
-                surface,
-                Fov::symmetric(self.field, 1.0),
-            );
+            let middle = world.poses()[self.flask].position + self.middle * Vec3::Y;
+            self.camera.view = view(middle, turn, self.field);
             let picture = self.camera.shoot_bare(world, Colour::Liquid)?;
             self.pictures.push((now, picture));
         }
@@ -129,6 +128,55 @@ impl Inset {
             if let Some(place) = film.get_mut(first..first + pixels.len()) {
                 place.copy_from_slice(pixels);
             }
+        }
+    }
+}
+
+/// Height of what is looked at over a glass's foot (m), and the field of view (radians), for a glass of that height and radius (m) with that
+/// volume of liquid in it (m³).
+fn framing([height, radius]: [f32; 2], volume: f32) -> (f32, f32) {
+    let depth = volume / (std::f32::consts::PI * radius * radius);
+    let middle = 0.5 * (depth + height);
+    let half = (height - middle + BEYOND * radius).max(WIDER * radius);
+    (middle, 2.0 * (half / EYE.length()).atan())
+}
+
+fn view(middle: Vec3, turn: f32, field: f32) -> View {
+    View::look_at(
+        middle + Quat::from_rotation_y(turn) * EYE,
+        middle,
+        Fov::symmetric(field, 1.0),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Beakers of 250 and 400 mL (ISO 3819) with 120 and 180 mL in them: surface and rim are in the picture, and so are drops a quarter of
+    /// the glass's width above the rim's middle. The glass fills half of its width or more.
+    #[test]
+    fn surface_rim_and_what_leaves_are_seen() {
+        for ([height, radius], volume) in [([0.095, 0.035], 1.2e-4), ([0.110, 0.040], 1.8e-4)] {
+            let (middle, field) = framing([height, radius], volume);
+            let foot = Vec3::new(0.12, 0.75, -0.4);
+            let clip = view(foot + middle * Vec3::Y, 0.6, field).clip_from_scaled(1.0);
+            let seen = |x: f32, y: f32, z: f32| clip.project_point3(foot + Vec3::new(x, y, z));
+            let depth = volume / (std::f32::consts::PI * radius * radius);
+            let rings = [depth, height].map(|level| {
+                (0..64).map(move |n| {
+                    let (sin, cos) = (n as f32 * std::f32::consts::TAU / 64.0).sin_cos();
+                    seen(radius * cos, level, radius * sin)
+                })
+            });
+            let ring: Vec<Vec3> = rings.into_iter().flatten().collect();
+            let all = ring.iter().copied();
+            let drop = seen(0.0, height + 0.5 * radius, 0.0);
+            for at in all.chain([drop]) {
+                assert!(at.x.abs() < 1.0 && at.y.abs() < 1.0, "{at}");
+            }
+            let widest = ring.iter().map(|at| at.x).fold(f32::MIN, f32::max);
+            assert!(widest > 0.5, "{widest}");
         }
     }
 }
