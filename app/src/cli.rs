@@ -27,7 +27,9 @@ pub use desk::DeskArgs;
 pub use drawn::DrawnArgs;
 #[cfg(feature = "export")]
 pub use export::ExportArgs;
-pub use lesson::{CheckLessonArgs, JudgeArgs, LessonArgs, LessonCommand, NewLessonArgs};
+pub use lesson::{
+    CheckLessonArgs, JudgeArgs, LessonArgs, LessonCommand, NewLessonArgs, no_subcommand,
+};
 pub use picture::PictureArgs;
 #[cfg(feature = "session")]
 pub use session::SessionArgs;

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue};
 use tracing::level_filters::LevelFilter;
-use vitriol::cli::{Cli, left_out};
+use vitriol::cli::{Cli, left_out, no_subcommand};
 use vitriol_run::{error_line, escaped, printed};
 
 fn main() -> ExitCode {
@@ -80,7 +80,8 @@ fn refused(error: &clap::Error) -> ExitCode {
         .map(|word| word.to_string_lossy().into_owned())
         .collect();
     let json = given.iter().any(|word| word == "--json");
-    if let Some(text) = left_out::answer(error, &given) {
+    let text = left_out::answer(error, &given).or_else(|| no_subcommand(error, &given));
+    if let Some(text) = text {
         return failed(&text, 2, json);
     }
     if json && error.use_stderr() {

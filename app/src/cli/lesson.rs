@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Subcommand};
 use vitriol_lesson::{Language, Mode};
 use vitriol_run::arguments::{file_of, preset};
@@ -77,6 +78,28 @@ pub struct NewLessonArgs {
     /// Language of its texts, and of what is wrong with the name: en, de, es or zh; a lesson needs no other one
     #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
+}
+
+/// What to say in place of `error` where the command line `given` has a word before a lesson that is no subcommand. clap takes the word
+/// for the lesson then, and the lesson for a subcommand.
+pub fn no_subcommand(error: &clap::Error, given: &[String]) -> Option<String> {
+    let said = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word),
+        _ => None,
+    };
+    let refused = said(ContextKind::InvalidSubcommand).or_else(|| said(ContextKind::InvalidArg))?;
+    let word = given.windows(3).find_map(|words| match words {
+        [command, word, lesson] if command == "lesson" && lesson == refused => Some(word.as_str()),
+        _ => None,
+    })?;
+    let is_option = |it: &str| it.starts_with('-');
+    if ["check", "new"].contains(&word) || is_option(word) || is_option(refused) {
+        return None;
+    }
+    Some(format!(
+        "`vitriol lesson` has no subcommand `{word}`, and shows one lesson at a time: `vitriol lesson check LESSON` checks one, \
+         `vitriol lesson new NAME` writes a new one"
+    ))
 }
 
 /// A lesson that is judged.

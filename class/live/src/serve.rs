@@ -213,8 +213,8 @@ pub fn listen_address(text: &str) -> Result<SocketAddr, String> {
     let found = text.to_socket_addrs().ok();
     let found = found.and_then(|found| found.min_by_key(SocketAddr::is_ipv6));
     found.ok_or_else(|| {
-        "there is none; give an address and a port, such as 0.0.0.0:8470, a name and a port, such as localhost:8470, or a \
-         port of this computer"
+        "no such address or port; give an address and a port, such as 0.0.0.0:8470, a name and a port, such as localhost:8470, \
+         or a port of this computer; a port is 0 to 65535"
             .to_owned()
     })
 }
@@ -265,7 +265,9 @@ mod tests {
         }
         for wrong in ["", "localhost", "0.0.0.0", "70000", "localhost:port"] {
             let message = listen_address(wrong).unwrap_err();
-            assert!(message.contains("localhost:8470"), "{wrong}: {message}");
+            for part in ["localhost:8470", "0 to 65535"] {
+                assert!(message.contains(part), "{wrong}: {message}");
+            }
         }
     }
 }

@@ -123,7 +123,7 @@ section!(pub FaultTexts, "What is wrong with a lesson's file or with what is ask
     no_toml duplicate no_lesson a_scene a_track quote unread unread_scene no_table no_list no_list_of_tables unknown unknown_and_missing
     variant missing one_of_all unfit unfit_kind whole number boolean text list keys table range version no_scene modes examination count no_points no_id twice before no_end ends
     parts deep question no_texts texts_missing texts_unknown answers empty long control brace lacks heat goggles gloves sash rod
-    thermometer cloth rinsing no_flask fixed same_flask too_much new_name from no_file other_file folder too_long encoding
+    thermometer cloth rinsing no_flask fixed same_flask too_much new_name reserved from no_file other_file folder too_long encoding
     unopened alike builtin toml mode other_scene hundred);
 
 /// The texts of one language: its file in `run/lesson/texts`, and its files in `report` and `fault` there. Each key is used and none is

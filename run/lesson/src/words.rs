@@ -9,6 +9,10 @@ use crate::{
     Surface, What,
 };
 
+/// By how much the hottest particle has to be above the warmest liquid at the start to be told, K. Our choice: temperatures are told in
+/// whole degrees.
+const WARMER: f64 = 1.0;
+
 /// Tone of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tone {
@@ -374,11 +378,16 @@ impl Texts {
         }
     }
 
-    /// Sentences about the hottest particle, where no incident names it, and the contents of flasks that were poured from or into.
+    /// Sentences about the hottest particle, where it is hotter than the liquids were at the start and no incident names it, and
+    /// the contents of flasks that were poured from or into.
     fn ending(&self, attempt: &Attempt, ending: &Ending) -> Vec<(Option<f64>, String)> {
         let mut said = Vec::new();
         let hot = |incident: &Incident| matches!(incident.what, What::Hot { .. });
+        let start = attempt.contents.values();
+        let start = start.filter_map(|it| it.temperature_c);
+        let warmest = start.fold(f64::MIN, f64::max);
         if let Some(hottest) = &ending.hottest
+            && hottest.temperature_c > warmest + WARMER
             && !attempt.incidents.iter().any(hot)
         {
             let temperature = self.temperature(hottest.temperature_c);

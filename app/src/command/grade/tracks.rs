@@ -8,7 +8,7 @@ use vitriol_run::texts::FilesTexts;
 use vitriol_run::{Blame, Failure, in_a_line};
 use vitriol_xr::files;
 
-use super::file_name;
+use super::{PAGE, TABLE, file_name};
 use crate::command::stem;
 
 /// Most folders inside each other that are looked into: platforms make one or two, and a stack is finite.
@@ -102,7 +102,7 @@ impl Tracks {
                     folder: above.first().cloned(),
                     file,
                 });
-            } else if !of_results {
+            } else if !of_results && !is_result(&name) {
                 self.passed_over.push(file.display().to_string());
             }
         }
@@ -158,6 +158,12 @@ pub fn short(names: &[String], texts: &FilesTexts) -> String {
 fn is_track(file: &Path) -> bool {
     let extension = file.extension();
     extension.is_some_and(|it| it.eq_ignore_ascii_case("mcap"))
+}
+
+/// Whether an earlier call wrote it, with this or another folder for its results.
+fn is_result(name: &str) -> bool {
+    let endings = [".grade.json", ".report.html"];
+    [TABLE, PAGE].contains(&name) || endings.iter().any(|it| name.ends_with(it))
 }
 
 /// Whether a system or a program laid it beside a student's files: macOS, Windows, an office program.

@@ -62,6 +62,9 @@ lesson own => did you mean own.toml?
 lesson new ../other => ../other; a to z
 lesson new Other => Other; a to z
 lesson new dilute => dilute; a to z
+lesson new con => con; Windows; take another name
+lesson new lpt1.toml => lpt1; take another name
+lesson chek own.toml => no subcommand `chek`; `vitriol lesson check LESSON`
 ",
     );
     assert_eq!(fs::read_dir(here).unwrap().count(), lessons.len() * 4 + 2);

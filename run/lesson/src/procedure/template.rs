@@ -86,6 +86,11 @@ impl Lesson {
             ]);
             return Err(LessonError::NewName(problem));
         }
+        if is_device(name) {
+            let reserved = FaultTexts::of(language)?.reserved;
+            let problem = reserved.fill(&[("name", &format!("{name:?}"))]);
+            return Err(LessonError::NewName(problem));
+        }
         let steps = find(from)?;
         // A test rules out that a built-in lesson has no texts in a language.
         let texts = lesson_lines(language, from).unwrap_or_default();
@@ -113,6 +118,16 @@ impl Lesson {
         text += &format!("\n{TEXTS}[texts.{language}]\n{texts}\n");
         Ok(text)
     }
+}
+
+/// Whether Windows reserves that name, of small letters, for a device. A file may not have it with an ending either: "Naming Files, Paths,
+/// and Namespaces" in Microsoft's documentation of Win32.
+fn is_device(name: &str) -> bool {
+    let port = name
+        .strip_prefix("com")
+        .or_else(|| name.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| matches!(number.as_bytes(), [b'1'..=b'9']));
+    is_port || ["con", "prn", "aux", "nul"].contains(&name)
 }
 
 /// Whether a line of a built-in lesson has that key, in a heading or before a value.

@@ -110,6 +110,16 @@ fn a_new_lesson_is_good_and_explained() {
             }
         }
     }
+    // The file of such a name is a device on Windows.
+    for device in ["con", "prn", "aux", "nul", "com1", "lpt9"] {
+        for language in Language::ALL {
+            let error = Lesson::template(device, "dilute", language).unwrap_err();
+            assert!(error.to_string().contains("Windows"), "{error}");
+        }
+    }
+    for free in ["console", "com", "com0", "lpt10"] {
+        assert!(Lesson::template(free, "dilute", Language::En).is_ok());
+    }
     for wrong in ["", "My lesson", "../own", "dilute"] {
         for (language, said) in [(Language::En, "a to z"), (Language::De, "a bis z")] {
             let error = Lesson::template(wrong, "dilute", language).unwrap_err();
