@@ -70,3 +70,39 @@ fn a_full_cylinder_is_a_lens() {
         assert!(worst < 0.04, "{kind}: {worst}");
     }
 }
+
+/// A stream down the wall, 4 mm thick and 24 mm wide, seen from above through the open rim. A ray that glass mirrors goes on through an empty
+/// vessel: it keeps what two straight ways through the stream let through, of which the longest is 34 mm at this slant. As if the vessel
+/// were full, it would come five times through 40 mm.
+#[test]
+fn a_stream_along_a_wall_is_as_light_as_it_is_thin() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_vessels(vec![cylinder([RADIUS, OUTER], 0.002, 0.05)]);
+    let mut places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 15);
+    places.retain(|at| at.x > FOOT.x + 0.8 * RADIUS as f32);
+    let eye = FOOT + Vec3::new(-0.05, 0.25, 0.25);
+    let view = View::look_at(
+        eye,
+        FOOT + Vec3::Y * 0.02,
+        Fov::symmetric(0.25, 4.0 / 3.0),
+    );
+    let vessels = [Affine3A::from_translation(FOOT)];
+    let empty = rig.draw(&FrameDesc {
+        vessels: &vessels,
+        ..FrameDesc::empty(&[view])
+    });
+    let mut liquid = Liquid::new(&rig, &places, |_| 0.0);
+    liquid.table = None;
+    let (picture, surfaces) = draw(&rig, &frame(&[view], &vessels, &liquid));
+    let least = TINTS[0][0].powf(2.0 * 0.034 / 0.06);
+    let wet = (surfaces[0].depth.iter().enumerate()).filter(|(_, depth)| **depth > 0.0);
+    let (mut seen, mut dark) = (0, 0);
+    for (pixel, _) in wet {
+        let red = |colour: &[u8]| linear(colour[4 * pixel]);
+        seen += 1;
+        dark += u32::from(red(&picture.colour[0]) < least * red(&empty.colour[0]));
+    }
+    eprintln!("{dark} of {seen} pixels are darker");
+    assert!(seen > 2000, "{seen}");
+    assert!(50 * dark < seen, "{dark} of {seen}");
+}

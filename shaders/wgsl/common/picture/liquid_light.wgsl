@@ -162,7 +162,10 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     // What the bench under it sends back has come down through the liquid before. The vessel's y is up, or is not.
     let upright = saturate(frame.vessels[vessel].vessel_from_stage[1].y);
     let depth = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
-    let kept = exp(-filled * (way.length + depth) * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
+    // A stream along a wall does not fill the vessel: mirrored at glass, a ray meets no more liquid than is seen where it first turns.
+    let later = min(filled * (way.length - way.first), there.x);
+    let long = filled * (way.first + depth) + later;
+    let kept = exp(-long * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     if (way.lost) {
         let all_about = ambient_light(0.0) + 0.5 * key_light(way.exit * frame.metres_per_unit).light;
         return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, Through(NO_VESSEL, 1.0));

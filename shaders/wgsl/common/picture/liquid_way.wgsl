@@ -25,8 +25,9 @@ struct Way {
     /// Where it leaves it, and along what.
     exit: vec3<f32>,
     out: vec3<f32>,
-    /// How far it has come in the liquid, and where it first turned.
+    /// How far it has come in the liquid, how far to where it first turned, and where that is.
     length: f32,
+    first: f32,
     turned: vec3<f32>,
     /// Whether it leaves it through the base.
     down: bool,
@@ -39,7 +40,7 @@ struct Way {
 fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32, level: f32) -> Way {
     let m = frame.vessels[vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
-    var ray = Way(point, within, 0.0, point, false, false);
+    var ray = Way(point, within, 0.0, 0.0, point, false, false);
     var at = p;
     let bubbly = has_bubbles();
     var mirrors = 0;
@@ -54,7 +55,10 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
         at += way * direction;
         ray.exit += way * ray.out;
         ray.length += way;
-        if (n == 0) { ray.turned = ray.exit; }
+        if (n == 0) {
+            ray.first = way;
+            ray.turned = ray.exit;
+        }
         if (bubble.way <= way) {
             ray.lost = n - mirrors == MOST_BUBBLES;
             if (ray.lost) { break; }
