@@ -81,11 +81,7 @@ fn a_stream_along_a_wall_is_as_light_as_it_is_thin() {
     let mut places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 15);
     places.retain(|at| at.x > FOOT.x + 0.8 * RADIUS as f32);
     let eye = FOOT + Vec3::new(-0.05, 0.25, 0.25);
-    let view = View::look_at(
-        eye,
-        FOOT + Vec3::Y * 0.02,
-        Fov::symmetric(0.25, 4.0 / 3.0),
-    );
+    let view = View::look_at(eye, FOOT + Vec3::Y * 0.02, Fov::symmetric(0.25, 4.0 / 3.0));
     let vessels = [Affine3A::from_translation(FOOT)];
     let empty = rig.draw(&FrameDesc {
         vessels: &vessels,

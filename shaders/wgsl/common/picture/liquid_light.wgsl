@@ -162,8 +162,14 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     // What the bench under it sends back has come down through the liquid before. The vessel's y is up, or is not.
     let upright = saturate(frame.vessels[vessel].vessel_from_stage[1].y);
     let depth = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
-    // A stream along a wall does not fill the vessel: mirrored at glass, a ray meets no more liquid than is seen where it first turns.
-    let later = min(filled * (way.length - way.first), there.x);
+    // A stream along a wall does not fill the vessel: mirrored at glass, a ray meets as much liquid as is seen where it first turns and at
+    // the vessel's axis, there and back.
+    let m = frame.vessels[vessel].vessel_from_stage;
+    let q = (m * vec4<f32>(way.turned, 1.0)).xyz;
+    let lift = max(frame.vessels[vessel].inner_floor + frame.spacing - q.y, 0.0);
+    let middle = way.turned + vec3<f32>(-q.x, lift, -q.z) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz);
+    let amid = thickness_at(pixel_of(middle, eye).xy, eye).x;
+    let later = min(filled * (way.length - way.first), there.x + 2.0 * amid);
     let long = filled * (way.first + depth) + later;
     let kept = exp(-long * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     if (way.lost) {
@@ -173,7 +179,6 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     // Beside its foot the bench is in the vessel's shadow, as for all others.
     var through = Through(select(NO_VESSEL, vessel, way.down), 1.0);
     if (depth > 0.0) {
-        let m = frame.vessels[vessel].vessel_from_stage;
         let foot = (m * vec4<f32>(way.exit, 1.0)).xz;
         let to_window = (m * vec4<f32>(middle_of_light(way.exit * frame.metres_per_unit), 0.0)).xyz;
         // A vessel that is lifted has light come in from aside. Through its wall the liquid's depth is not known.
