@@ -68,9 +68,9 @@ var<immediate> around: Neighbourhood;
 const SMOOTHING = 0.9;
 /// Their k_r: an ellipsoid's axes differ by no more.
 const FLATTEST = 4.0;
-/// No half axis is longer, in spacings: along a stream and at a sheet's rim it would reach into the air. With 2 a pour's
-/// silhouette was 4 % too large, with 1.2 it is 2 % (docs/measurements/rendering.md); shorter ones leave gaps in sheets.
-const LONGEST = 1.2;
+/// No half axis is longer, in spacings: a sheet's rim would reach into the air. Shorter ones leave gaps between particles at a wall
+/// (docs/measurements/rendering.md).
+const LONGEST = 2.0;
 /// Offset of the mean of the neighbourhood of a particle half a spacing below a plane surface, for
 /// h = 2 d, in support radii (by the moments below). One that sticks out has a greater one, and
 /// is not to stick out by more for that.
