@@ -75,14 +75,14 @@ fn describe(told: &Told) -> String {
         text += &format!("- {waiting} that waited to be sent, and will not be\n");
     }
     for file in &forgotten.files {
-        text += &format!("- {}\n", file.display());
+        text += &format!("- {file}\n");
     }
     let (left, sent) = (&forgotten.left, &forgotten.sent);
     if !(left.is_empty() && forgotten.recordings.is_empty() && sent.is_empty()) {
         text.push_str("Not deleted:\n");
     }
     for Left { path, reason } in left {
-        text += &format!("- {}: {reason}\n", path.display());
+        text += &format!("- {path}: {reason}\n");
     }
     for recording in &forgotten.recordings {
         text += &format!("- {recording}, from which attempts were read: delete it yourself\n");

@@ -24,8 +24,8 @@ pub struct Forgotten {
     pub incidents: u64,
     /// Waiting statements, which will never be sent.
     pub waiting: u64,
-    /// Files of statements that were deleted.
-    pub files: Vec<PathBuf>,
+    /// Files of statements that were deleted; as text, since the data are gone before these names are written as JSON.
+    pub files: Vec<String>,
     /// Files of statements that are still there.
     pub left: Vec<Left>,
     /// Recordings that the attempts were read from: these are not touched.
@@ -47,7 +47,7 @@ pub struct SentTo {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Left {
     /// The file.
-    pub path: PathBuf,
+    pub path: String,
     /// Why it could not be deleted.
     pub reason: String,
 }
@@ -80,11 +80,12 @@ impl Store {
         let mut forgotten = look(&change, pseudonym.as_str()).of(&path)?;
         // Files first: the rows are the only record of them.
         for file in files(&change, pseudonym.as_str()).of(&path)? {
+            let shown = file.display().to_string();
             match delete(&file, pseudonym) {
-                Ok(true) => forgotten.files.push(file),
+                Ok(true) => forgotten.files.push(shown),
                 Ok(false) => {}
                 Err(error) => forgotten.left.push(Left {
-                    path: file,
+                    path: shown,
                     reason: error.to_string(),
                 }),
             }

@@ -257,9 +257,9 @@ fn what_is_forgotten_is_in_no_byte() {
     assert_eq!(forgotten.sent, [SentTo { lrs, statements: 9 }]);
     assert_eq!(forgotten.waiting, 9 * (incidents + 2));
     assert_eq!(forgotten.recordings, ["Zebra-Quagga.mcap"]);
-    assert_eq!(forgotten.files, [ours]);
+    assert_eq!(forgotten.files, [ours.display().to_string()]);
     assert_eq!(forgotten.left.len(), 1);
-    assert_eq!(forgotten.left[0].path, changed);
+    assert_eq!(forgotten.left[0].path, changed.display().to_string());
     fs::remove_file(&changed).unwrap();
     // Also while it is open, and in no journal beside it.
     assert_eq!(holding(folder.path(), "Zebra-Quagga"), [""; 0]);

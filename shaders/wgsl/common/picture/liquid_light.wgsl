@@ -165,13 +165,14 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     // A stream along a wall does not fill the vessel: mirrored at glass, a ray meets as much liquid as is seen where it first turns and at
     // the vessel's axis, there and back.
     let m = frame.vessels[vessel].vessel_from_stage;
-    let q = (m * vec4<f32>(way.turned, 1.0)).xyz;
-    let lift = max(frame.vessels[vessel].inner_floor + frame.spacing - q.y, 0.0);
-    let middle = way.turned + vec3<f32>(-q.x, lift, -q.z) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz);
-    let amid = thickness_at(pixel_of(middle, eye).xy, eye).x;
-    let later = min(filled * (way.length - way.first), there.x + 2.0 * amid);
-    let long = filled * (way.first + depth) + later;
-    let kept = exp(-long * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
+    var later = filled * (way.length - way.first);
+    if (later > there.x) {
+        let q = (m * vec4<f32>(way.turned, 1.0)).xyz;
+        let lift = max(frame.vessels[vessel].inner_floor + frame.spacing - q.y, 0.0);
+        let middle = way.turned + vec3<f32>(-q.x, lift, -q.z) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz);
+        later = min(later, there.x + 2.0 * thickness_at(pixel_of(middle, eye).xy, eye).x);
+    }
+    let kept = exp(-(filled * (way.first + depth) + later) * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     if (way.lost) {
         let all_about = ambient_light(0.0) + 0.5 * key_light(way.exit * frame.metres_per_unit).light;
         return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, Through(NO_VESSEL, 1.0));
