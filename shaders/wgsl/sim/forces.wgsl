@@ -207,8 +207,10 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
     if ((step.bubbles & BUBBLES_ACT) > 0u) {
         let boil = boil_of(content, variance, potential);
         boils[i] = boil;
-        if (held.w <= 0.0 && nucleus_grows(identity, boil.x, potential.temperature)) {
-            held.w = NUCLEUS_WAIT;
+        let nuclei = growing_nuclei(boil.x, potential.temperature);
+        if (held.w <= 0.0 && nucleus_grows(identity, nuclei)) {
+            // Each of them has bubbles, so that liquid has as many of them in coarse particles as in fine ones.
+            held.w = NUCLEUS_WAIT / max(nuclei, 1.0);
             claim(identity, i, 0u);
         }
     }

@@ -9,7 +9,7 @@
 
 /// Excess pressure of vapour, over an atmosphere, at which as many nuclei grow as there are particles.
 override NUCLEUS_PRESSURE: f32 = 1e9;
-/// Time between two bubbles of a nucleus, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at 100 °C, and
+/// Time between two bubbles of a nucleus that grows, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at 100 °C, and
 /// bubbles leave with 4 mm (chosen, as they leave what is clean).
 const NUCLEUS_WAIT: f32 = 0.0435;
 
@@ -34,12 +34,17 @@ fn excess_pressure(superheat: f32, temperature: f32) -> f32 {
     return exp(LATENT_TEMPERATURE * superheat / (absolute * (absolute - superheat))) - 1.0;
 }
 
-/// Whether a nucleus of a particle grows. One of radius R does where vapour exceeds the pressure by 2σ/R, and N(>R) ∝ R⁻³ (Brennen 1995,
-/// Cavitation and Bubble Dynamics): a particle's largest, by Poisson's law.
-fn nucleus_grows(identity: u32, superheat: f32, temperature: f32) -> bool {
-    if (superheat <= NUCLEATION) { return false; }
+/// Nuclei that grow in a particle, in the mean. One of radius R does where vapour exceeds the pressure by 2σ/R, and N(>R) ∝ R⁻³ (Brennen
+/// 1995, Cavitation and Bubble Dynamics).
+fn growing_nuclei(superheat: f32, temperature: f32) -> f32 {
+    if (superheat <= NUCLEATION) { return 0.0; }
+    return pow(excess_pressure(superheat, temperature) / NUCLEUS_PRESSURE, 3.0);
+}
+
+/// Whether a particle has one of `nuclei` that grow in the mean, by Poisson's law.
+fn nucleus_grows(identity: u32, nuclei: f32) -> bool {
     let chance = (f32(scattered(identity) >> 8u) + 0.5) / 16777216.0;
-    return excess_pressure(superheat, temperature) > NUCLEUS_PRESSURE * pow(-log(chance), 1.0 / 3.0);
+    return nuclei > -log(chance);
 }
 
 /// Place of a bubble that is born at a particle at x: another one each time.

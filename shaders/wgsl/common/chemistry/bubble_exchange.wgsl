@@ -11,6 +11,9 @@ const MOST_OF_SUPERHEAT: f32 = 0.5;
 /// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
 const MOST_GIVEN: f32 = 8.0;
 
+/// Greatest speed with which a bubble's radius grows, m/s: a faster one would take in a step what lies beyond its contact. Chosen.
+const MOST_GROWTH: f32 = 0.54;
+
 /// T of what a bubble holds, °C: the few quanta of steam that a bubble of air may have would have none by themselves.
 fn temperature_of(bubble: Bubble) -> f32 {
     if (bubble.mass <= 0.0) { return bubble.air_temperature; }
@@ -34,8 +37,8 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
     let cube = bubble.radius * bubble.radius * bubble.radius;
     var c: Conductance;
     if (s.superheat > 0.0) {
-        // More than 20 K of superheat would bring it further: in a step it reaches the next particles.
-        let r = min(grown(bubble.radius, s.superheat, s.growing, relative, density, around, time), bubble.radius + SPACING);
+        let law = grown(bubble.radius, s.superheat, s.growing, relative, density, around, time);
+        let r = min(law, bubble.radius + MOST_GROWTH * time);
         c.taken = unit * (r * r * r - cube) / (time * s.superheat);
     }
     if (s.subcooling > 0.0) {
