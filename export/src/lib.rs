@@ -25,6 +25,7 @@ use vitriol_xr::track::TrackMetadata;
 
 pub use mesh::Mesh;
 pub use surfaces::Surfaces;
+pub use table::TableFormat;
 
 use recording::Recording;
 use sink::{Frame, Gltf, Measurements, Ply, Sink, Vtk};
@@ -38,10 +39,8 @@ pub enum Format {
     Ply,
     /// Surfaces, glass, room and cameras as glTF 2.0
     Gltf,
-    /// Measurements as CSV
-    Csv,
-    /// Measurements as Parquet
-    Parquet,
+    /// Measurements as a table
+    Table(TableFormat),
     /// A recording with particles, film and measurements, as MCAP
     Mcap,
 }
@@ -53,15 +52,17 @@ impl Format {
             Self::Vtk => "vtk",
             Self::Ply => "ply",
             Self::Gltf => "gltf",
-            Self::Csv => "csv",
-            Self::Parquet => "parquet",
+            Self::Table(format) => format.name(),
             Self::Mcap => "mcap",
         }
     }
 
-    /// Whether it is a table, of measurements alone, which a report has too.
-    pub fn is_table(self) -> bool {
-        matches!(self, Self::Csv | Self::Parquet)
+    /// The table that it is, of measurements alone, which a report has too; `None` of what is no table.
+    pub fn table(self) -> Option<TableFormat> {
+        match self {
+            Self::Table(format) => Some(format),
+            _ => None,
+        }
     }
 }
 
@@ -130,7 +131,7 @@ impl Export {
                 Format::Vtk => Box::new(Vtk::default()),
                 Format::Ply => Box::new(Ply::default()),
                 Format::Gltf => Box::new(Gltf),
-                Format::Csv | Format::Parquet => Box::new(Measurements::after(0, *format)),
+                Format::Table(format) => Box::new(Measurements::after(0, *format)),
                 Format::Mcap => Box::new(Recording::new(origin, &mut out)?),
             });
         }
@@ -140,8 +141,8 @@ impl Export {
             written: 0,
             sinks,
             takes: [
-                formats.iter().any(|format| !format.is_table()),
-                (formats.iter()).any(|format| *format == Format::Mcap || format.is_table()),
+                formats.iter().any(|format| format.table().is_none()),
+                (formats.iter()).any(|format| *format == Format::Mcap || format.table().is_some()),
             ],
             sampled: None,
             span,
@@ -162,14 +163,14 @@ impl Export {
     }
 }
 
-/// Writes measurements that are there already, of a run that brought up `scenes_before` others before; `formats` are tables.
+/// Writes measurements that are there already, of a run that brought up `scenes_before` others before.
 ///
 /// # Errors
 /// An error of the file system.
 pub fn tables(
     samples: &[Sample],
     scenes_before: u32,
-    formats: &[Format],
+    formats: &[TableFormat],
     out: &mut OutDir,
 ) -> Result<(), Failure> {
     for &format in formats {

@@ -14,8 +14,8 @@ use crate::cameras::{self, NamedView};
 use crate::cloud::Cloud;
 use crate::gltf::{self, Matter};
 use crate::surfaces::Surfaces;
-use crate::table::{Column, Csv, Parquet, Table, columns};
-use crate::{Format, ply, room, vtk};
+use crate::table::{Column, Table, TableFormat, columns};
+use crate::{ply, room, vtk};
 
 /// A moment that is exported; what formats share is made once, and only where one asks for it.
 pub struct Frame<'a> {
@@ -259,14 +259,14 @@ impl Sink for Gltf {
 
 /// Measurements, a table for each scene that a run brings up: others have other flasks.
 pub struct Measurements {
-    format: Format,
+    format: TableFormat,
     part: u32,
     begun: Option<(Vec<Column>, Box<dyn Table>, Staged)>,
 }
 
 impl Measurements {
     /// Measurements as that table, for a run that goes on after `scenes` scenes: the tables' numbers go on from there.
-    pub fn after(scenes: u32, format: Format) -> Self {
+    pub fn after(scenes: u32, format: TableFormat) -> Self {
         Self {
             format,
             part: scenes,
@@ -280,12 +280,7 @@ impl Measurements {
         let staged = out.stage(&name)?;
         let columns = columns(first);
         let begin = || -> Result<Box<dyn Table>, Cause> {
-            let file = staged.try_clone()?;
-            let table: Box<dyn Table> = match self.format {
-                Format::Parquet => Box::new(Parquet::new(file, &columns)?),
-                _ => Box::new(Csv::new(file, &columns)?),
-            };
-            Ok(table)
+            self.format.begin(staged.try_clone()?, &columns)
         };
         let table = begin().map_err(unwritten(&staged.path))?;
         self.begun = Some((columns, table, staged));

@@ -186,6 +186,37 @@ pub trait Table {
     fn finish(self: Box<Self>) -> Result<(), Cause>;
 }
 
+/// A table's format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableFormat {
+    /// CSV
+    Csv,
+    /// Parquet
+    Parquet,
+}
+
+impl TableFormat {
+    /// The name as it is given, and the ending of its files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+        }
+    }
+
+    /// Begins a table of those columns.
+    ///
+    /// # Errors
+    /// An error of the file system.
+    pub(crate) fn begin(self, file: File, columns: &[Column]) -> Result<Box<dyn Table>, Cause> {
+        let table: Box<dyn Table> = match self {
+            Self::Csv => Box::new(Csv::new(file, columns)?),
+            Self::Parquet => Box::new(Parquet::new(file, columns)?),
+        };
+        Ok(table)
+    }
+}
+
 /// A table as CSV (RFC 4180). It is for programs, and Python's `csv` takes a byte order mark for a part of the first
 /// column's name: it has none.
 pub struct Csv(csv::Writer<BufWriter<File>>);

@@ -64,7 +64,7 @@ pub struct ExportArgs {
 
 /// What is exported.
 fn export_format() -> impl TypedValueParser<Value = vitriol_export::Format> {
-    use vitriol_export::Format;
+    use vitriol_export::{Format, TableFormat};
     const FORMATS: [(Format, &str); 6] = [
         (Format::Vtk, "Particles, for ParaView and PyVista"),
         (
@@ -75,8 +75,11 @@ fn export_format() -> impl TypedValueParser<Value = vitriol_export::Format> {
             Format::Gltf,
             "Surfaces, glass, room, cameras in one file a moment",
         ),
-        (Format::Csv, "Measurements, a row a sample"),
-        (Format::Parquet, "The same"),
+        (
+            Format::Table(TableFormat::Csv),
+            "Measurements, a row a sample",
+        ),
+        (Format::Table(TableFormat::Parquet), "The same"),
         (Format::Mcap, "A recording for Foxglove and Rerun"),
     ];
     named(&FORMATS, Format::name)

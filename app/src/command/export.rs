@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_export::{Export, Format as Exported, Origin, Times};
+use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
 use vitriol_run::output::{OutDir, REPORT_JSON};
 use vitriol_run::progress::Runs;
 use vitriol_run::track::{DEVICE, DRIVER, PRESET};
@@ -50,7 +50,7 @@ struct Done {
 /// is left then.
 pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let report = report(&args.input)?;
-    if args.at.is_some() && args.format.iter().any(|format| format.is_table()) {
+    if args.at.is_some() && args.format.iter().any(|format| format.table().is_some()) {
         return Err(
             "--at: a table has samples over time; leave csv and parquet out, or take --seconds"
                 .to_owned(),
@@ -65,10 +65,9 @@ pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         }
     }
     let out = OutDir::take(args.out.as_deref(), &stem(&args.input))?;
-    let done = match &report {
-        Some(report) if formats.iter().all(|format| format.is_table()) && is_whole(args) => {
-            of_report(report, &formats, out)?
-        }
+    let tables: Option<Vec<_>> = formats.iter().map(|format| format.table()).collect();
+    let done = match (&report, tables) {
+        (Some(report), Some(tables)) if is_whole(args) => of_report(report, &tables, out)?,
         _ => simulated(args, report.as_ref(), &formats, format, out)?,
     };
     emit(format, &done, describe)
@@ -119,13 +118,13 @@ fn report(input: &str) -> Result<Option<Report>, Failure> {
 }
 
 /// Tables of what a report has already.
-fn of_report(report: &Report, formats: &[Exported], mut out: OutDir) -> Result<Done, Failure> {
+fn of_report(report: &Report, formats: &[TableFormat], mut out: OutDir) -> Result<Done, Failure> {
     if report.series.is_empty() {
         return Err("the report has no series, as what `vitriol replay --json` prints has none; give the run's folder".to_owned())
             .input();
     }
     vitriol_export::tables(&report.series, report.scenes_before, formats, &mut out)?;
-    finished(out, formats, 0)
+    finished(out, formats.iter().map(|format| format.name()), 0)
 }
 
 /// What a run is simulated for.
@@ -185,7 +184,8 @@ fn simulated(
     )?;
     let outcome = laboratory.outcome()?;
     let (out, moments) = export.finish(outcome.state_hash)?;
-    let mut done = finished(out, formats, moments)?;
+    let names = formats.iter().map(|format| format.name());
+    let mut done = finished(out, names, moments)?;
     let hash = format!("{:016x}", outcome.state_hash);
     let whole = report.filter(|_| is_whole(args));
     done.same_state = whole.map(|report| report.state_hash == hash);
@@ -286,13 +286,17 @@ fn metadata(plan: &ReplayPlan, device: &vitriol_run::DeviceStatement) -> TrackMe
 }
 
 /// Counts what is there, and keeps it.
-fn finished(out: OutDir, formats: &[Exported], moments: u64) -> Result<Done, Failure> {
+fn finished(
+    out: OutDir,
+    formats: impl Iterator<Item = &'static str>,
+    moments: u64,
+) -> Result<Done, Failure> {
     let (files, bytes) = out.sizes()?;
     let folder = out.path.clone();
     out.complete();
     Ok(Done {
         folder,
-        formats: formats.iter().map(|format| format.name()).collect(),
+        formats: formats.collect(),
         moments,
         files,
         bytes,

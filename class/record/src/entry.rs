@@ -50,8 +50,6 @@ impl Entry {
 pub struct Score {
     raw: f64,
     max: f64,
-    /// Whether it passed, where a limit is set.
-    pub passed: Option<bool>,
     /// The points by criterion.
     pub points: Vec<Points>,
     /// What caps the points, the lowest cap first.
@@ -98,7 +96,6 @@ impl Score {
         Ok(Self {
             raw,
             max,
-            passed: None,
             points: Vec::new(),
             caps: Vec::new(),
         })

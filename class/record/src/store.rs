@@ -125,7 +125,7 @@ impl Store {
                     .pragma_update(None, "user_version", schema::VERSION)
                     .of(&path)?;
                 change.execute_batch(schema::TABLES).of(&path)?;
-                change.execute_batch(schema::CAPS).of(&path)?;
+                change.execute_batch(schema::LATER).of(&path)?;
                 let class = Uuid::new_v4().to_string();
                 change
                     .execute("INSERT INTO class VALUES (?1)", [class])
@@ -136,12 +136,17 @@ impl Store {
         if number(&self.connection, "application_id").of(&path)? != schema::APPLICATION {
             return Err(StoreError::NotOurs { path });
         }
-        if number(&self.connection, "user_version").of(&path)? == schema::WITHOUT_CAPS {
+        let older = 1..schema::VERSION;
+        if older.contains(&number(&self.connection, "user_version").of(&path)?) {
             let change = self.change()?;
-            change.execute_batch(schema::CAPS).of(&path)?;
-            change
-                .pragma_update(None, "user_version", schema::VERSION)
-                .of(&path)?;
+            // Here too another program may have been first.
+            if older.contains(&number(&change, "user_version").of(&path)?) {
+                change.execute_batch(schema::WITHOUT_PASSED).of(&path)?;
+                change.execute_batch(schema::LATER).of(&path)?;
+                change
+                    .pragma_update(None, "user_version", schema::VERSION)
+                    .of(&path)?;
+            }
             change.commit().of(&path)?;
         }
         let found = number(&self.connection, "user_version").of(&path)?;

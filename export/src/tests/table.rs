@@ -70,6 +70,25 @@ fn no_cell_begins_a_formula() {
     assert_eq!(&records[1][place], "");
 }
 
+/// CSV begins with its header, and a Parquet file with its magic number (Apache Parquet, "File Format").
+#[test]
+fn each_format_is_written_as_what_it_is_called() {
+    let columns = columns(&sample(0.0));
+    for (format, begins) in [
+        (TableFormat::Csv, "time [s],"),
+        (TableFormat::Parquet, "PAR1"),
+    ] {
+        let mut file = tempfile::tempfile().unwrap();
+        let mut table = format.begin(file.try_clone().unwrap(), &columns).unwrap();
+        table.row(&columns, &sample(0.5)).unwrap();
+        table.finish().unwrap();
+        let mut written = Vec::new();
+        std::io::Seek::rewind(&mut file).unwrap();
+        file.read_to_end(&mut written).unwrap();
+        assert!(written.starts_with(begins.as_bytes()), "{}", format.name());
+    }
+}
+
 /// More rows than are held in memory.
 #[test]
 fn rows_are_written_as_they_come() {

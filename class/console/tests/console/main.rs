@@ -3,6 +3,8 @@
 
 #[cfg(target_os = "linux")]
 mod cards;
+#[cfg(target_os = "linux")]
+mod class;
 mod client;
 #[cfg(target_os = "linux")]
 mod close_up;

@@ -74,7 +74,7 @@ fn insert(change: &Transaction<'_>, entry: &Entry, id: &str, begun: &str) -> rus
     let ending = attempt.ending.as_ref();
     let score = entry.score.as_ref();
     change.execute(
-        "INSERT INTO attempts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+        "INSERT INTO attempts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)",
         params![
             id,
             entry.pseudonym.as_str(),
@@ -87,7 +87,6 @@ fn insert(change: &Transaction<'_>, entry: &Entry, id: &str, begun: &str) -> rus
             attempt.incidents.len() as i64,
             score.map(|score| score.raw()),
             score.map(|score| score.max()),
-            score.and_then(|score| score.passed),
             ending.and_then(|it| it.hottest.as_ref()).map(|it| it.temperature_c),
             ending.map(|it| it.bench_m3),
             ending.map(|it| it.floor_m3),

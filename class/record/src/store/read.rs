@@ -37,7 +37,7 @@ impl Store {
 
 /// The attempt of that identifier.
 pub(super) fn entry(connection: &Connection, path: &Path, id: Uuid) -> Result<Entry, StoreError> {
-    let query = "SELECT attempt_id, pseudonym, begun, lesson, source, points, points_max, passed, attempt FROM attempts WHERE attempt_id = ?1";
+    let query = "SELECT attempt_id, pseudonym, begun, lesson, source, points, points_max, attempt FROM attempts WHERE attempt_id = ?1";
     let mut query = connection.prepare(query).of(path)?;
     let mut rows = query.query([id.to_string()]).of(path)?;
     let row = rows.next().of(path)?;
@@ -51,12 +51,11 @@ pub(super) fn entry(connection: &Connection, path: &Path, id: Uuid) -> Result<En
 fn whole(connection: &Connection, path: &Path, row: &Row<'_>) -> Result<Entry, StoreError> {
     let text = |column: usize| row.get::<_, String>(column).of(path);
     let number = |column: usize| row.get::<_, Option<f64>>(column).of(path);
-    let attempt = serde_json::from_str(&text(8)?);
+    let attempt = serde_json::from_str(&text(7)?);
     let id = text(0)?;
     let score = match (number(5)?, number(6)?) {
         (Some(raw), Some(max)) => {
             let mut score = Score::new(raw, max).map_err(|_| damaged(path, "a score"))?;
-            score.passed = row.get(7).of(path)?;
             let query = "SELECT criterion, points, points_max FROM points WHERE attempt_id = ?1 ORDER BY position";
             score.points = rows_of(connection, query, &id, |row| {
                 Ok(Points {

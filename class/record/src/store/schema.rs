@@ -3,11 +3,9 @@
 /// "Vitr", by which SQLite's header distinguishes the file from other programs' (application_id).
 pub(super) const APPLICATION: i32 = 0x5669_7472;
 
-/// Version of these tables, in the file's `user_version`. A change of them raises it.
-pub(super) const VERSION: i32 = 2;
-
-/// The version before the table [`CAPS`], which is added to such a file when it is opened.
-pub(super) const WITHOUT_CAPS: i32 = 1;
+/// Version of these tables, in the file's `user_version`. A change of them raises it. A file of an older version gets [`WITHOUT_PASSED`],
+/// then [`LATER`], when it is opened: version 1 had no caps.
+pub(super) const VERSION: i32 = 3;
 
 /// `class` has one row. `attempts` and `students` are for spreadsheets; `attempt` holds all of an attempt as JSON. Rows that belong to an
 /// attempt are deleted with it.
@@ -28,7 +26,6 @@ CREATE TABLE attempts (
     incidents INTEGER NOT NULL,
     points REAL,
     points_max REAL,
-    passed INTEGER,
     hottest_c REAL,
     bench_m3 REAL,
     floor_m3 REAL,
@@ -91,22 +88,11 @@ CREATE TABLE sent (
     attempt_id TEXT NOT NULL REFERENCES attempts ON DELETE CASCADE,
     PRIMARY KEY (lrs, statement_id)
 ) STRICT;
-
-CREATE VIEW students AS
-SELECT
-    pseudonym,
-    count(*) AS attempts,
-    sum(finished) AS finished,
-    sum(incidents) AS incidents,
-    max(points / points_max) AS best_score,
-    sum(passed) AS passed,
-    min(begun) AS first_begun,
-    max(begun) AS last_begun
-FROM attempts GROUP BY pseudonym ORDER BY pseudonym;
 ";
 
-/// What caps the points of an attempt: the danger in a word, and the most points that it leaves. The lowest cap is first.
-pub(super) const CAPS: &str = "
+/// Later tables: what caps the points of an attempt, the danger in a word and the most points that it leaves, with the lowest cap first; and
+/// the view.
+pub(super) const LATER: &str = "
 CREATE TABLE IF NOT EXISTS caps (
     attempt_id TEXT NOT NULL REFERENCES attempts ON DELETE CASCADE,
     position INTEGER NOT NULL,
@@ -115,4 +101,21 @@ CREATE TABLE IF NOT EXISTS caps (
     points_max REAL NOT NULL,
     PRIMARY KEY (attempt_id, position)
 ) STRICT;
+
+CREATE VIEW students AS
+SELECT
+    pseudonym,
+    count(*) AS attempts,
+    sum(finished) AS finished,
+    sum(incidents) AS incidents,
+    max(points / points_max) AS best_score,
+    min(begun) AS first_begun,
+    max(begun) AS last_begun
+FROM attempts GROUP BY pseudonym ORDER BY pseudonym;
+";
+
+/// Takes out what nothing ever set: a column, and the sum of it in the view.
+pub(super) const WITHOUT_PASSED: &str = "
+DROP VIEW students;
+ALTER TABLE attempts DROP COLUMN passed;
 ";

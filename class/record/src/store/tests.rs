@@ -32,7 +32,6 @@ fn entry(pseudonym: &str, index: u128) -> Entry {
 
 fn scored(mut entry: Entry) -> Entry {
     let mut score = Score::new(13.0, 20.0).unwrap();
-    score.passed = Some(true);
     score.points = vec![Points {
         criterion: "order".into(),
         raw: 3.0,
@@ -173,27 +172,56 @@ fn other_files_are_refused_and_kept() {
     }
 }
 
-/// A file of before there were caps gets their table, and keeps what it has.
-#[test]
-fn an_older_file_gets_its_caps() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("class");
-    let mut store = Store::open(&path).unwrap();
-    store.add(&entry("p07", 1), None).unwrap();
-    store.connection.execute_batch("DROP TABLE caps").unwrap();
-    store
-        .connection
-        .pragma_update(None, "user_version", 1)
-        .unwrap();
-    drop(store);
+/// What files of versions 1 and 2 have besides: a column that nothing set, and its sum.
+const PASSED: &str = "
+DROP VIEW students;
+ALTER TABLE attempts ADD COLUMN passed INTEGER;
+CREATE VIEW students AS SELECT pseudonym, sum(passed) AS passed FROM attempts GROUP BY pseudonym;
+";
 
-    let mut store = Store::open_existing(&path).unwrap();
-    let second = scored(entry("p07", 2));
-    store.add(&second, None).unwrap();
-    for kept in [entry("p07", 1), second] {
-        assert_eq!(store.attempt(kept.id).unwrap(), kept);
+/// The columns of a table or view.
+fn columns(store: &Store, table: &str) -> Vec<String> {
+    let query = "SELECT name FROM pragma_table_info(?1)";
+    let mut query = store.connection.prepare(query).unwrap();
+    let rows = query.query_map([table], |row| row.get::<_, String>(0));
+    rows.unwrap().map(Result::unwrap).collect()
+}
+
+/// An older file gets the columns of a new one, and keeps what it has.
+#[test]
+fn an_older_file_becomes_as_a_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let new = Store::open(&folder.path().join("new")).unwrap();
+    for version in [1_i32, 2] {
+        let path = folder.path().join(version.to_string());
+        let mut store = Store::open(&path).unwrap();
+        store.add(&entry("p07", 1), None).unwrap();
+        store.connection.execute_batch(PASSED).unwrap();
+        if version == 1 {
+            store.connection.execute_batch("DROP TABLE caps").unwrap();
+        }
+        store
+            .connection
+            .pragma_update(None, "user_version", version)
+            .unwrap();
+        drop(store);
+
+        let mut store = Store::open_existing(&path).unwrap();
+        for table in ["attempts", "caps", "students"] {
+            let [old, new] = [&store, &new].map(|it| columns(it, table));
+            assert_eq!(old, new, "version {version}: {table}");
+            assert!(!old.is_empty(), "{table}");
+        }
+        let second = scored(entry("p07", 2));
+        store.add(&second, None).unwrap();
+        for kept in [entry("p07", 1), second] {
+            assert_eq!(store.attempt(kept.id).unwrap(), kept);
+        }
+        assert_eq!(students(&store)[0].1, 2);
+        drop(store);
+        // Only once.
+        assert_eq!(students(&Store::open_existing(&path).unwrap())[0].1, 2);
     }
-    assert_eq!(students(&store)[0].1, 2);
 }
 
 #[test]

@@ -50,8 +50,6 @@ struct Outcome {
     #[serde(skip_serializing_if = "Option::is_none")]
     score: Option<Scored>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    success: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     completion: Option<bool>,
     duration: String,
     #[serde(skip_serializing_if = "Extensions::is_empty")]
@@ -185,7 +183,6 @@ fn outcome(entry: &Entry) -> Outcome {
             min: 0.0,
             max: score.max(),
         }),
-        success: score.and_then(|score| score.passed),
         completion: Some(entry.attempt.ending.is_some()),
         duration: duration(entry.duration_s()),
         extensions,

@@ -1,6 +1,7 @@
-//! Incidents in words and as a table.
+//! Incidents in words, in points and as a table.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod caps;
 mod said;
+mod scored;
 mod table;
