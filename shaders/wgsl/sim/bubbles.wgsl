@@ -119,6 +119,8 @@ fn born(before: Bubble, i: u32, of_air: bool) -> Bubble {
     bubble.position = position[i].xyz;
     bubble.position_before = bubble.position;
     bubble.velocity = velocity[i].xyz;
+    // One that bursts in its first step would keep that of the bubble that this set of records had here before.
+    bubble.flow = bubble.velocity;
     bubble.membership = tags[i].x;
     bubble.surfaced = 0.0;
     bubble.touching = 0.0;
