@@ -5,9 +5,9 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster_width};
 use crate::canvas::{Canvas, MARGIN, PADDING};
 
 /// Still read where the picture is shown at half its size, as a page does.
-const SIZE: RasterHeight = RasterHeight::Size24;
+const SIZE: RasterHeight = RasterHeight::Size20;
 /// Distance from line to line beside the text's height, pixels.
-const LEADING: usize = 4;
+const LEADING: usize = 3;
 /// Least letters of a line: room for four digits, so that no panel grows while numbers do.
 const LETTERS: usize = 15;
 /// Likewise of the time.
@@ -20,6 +20,8 @@ pub struct Caption {
     pub title: String,
     /// Highest temperature now, °C, where heat is modelled.
     pub hottest_c: Option<f64>,
+    /// Water that left as steam so far, kg, where that is modelled.
+    pub steam_kg: Option<f64>,
     /// What was thrown out so far, kg.
     pub thrown_kg: f64,
 }
@@ -29,12 +31,18 @@ impl Caption {
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![self.title.clone()];
         lines.extend(self.hottest_c.map(|it| format!("hottest {it:.0} °C")));
-        // Cold acid throws tens of milligrams, hot acid grams.
-        lines.push(match 1e6 * self.thrown_kg {
-            mg if mg < 999.5 => format!("thrown {mg:.0} mg"),
-            mg => format!("thrown {:.1} g", 1e-3 * mg),
-        });
+        let steam = self.steam_kg.map(weight);
+        lines.extend(steam.map(|it| format!("steam {it}")));
+        lines.push(format!("thrown {}", weight(self.thrown_kg)));
         lines
+    }
+}
+
+/// Cold acid makes and throws milligrams, hot acid grams.
+fn weight(kg: f64) -> String {
+    match 1e6 * kg {
+        mg if mg < 999.5 => format!("{mg:.0} mg"),
+        mg => format!("{:.1} g", 1e-3 * mg),
     }
 }
 
@@ -109,6 +117,7 @@ mod tests {
         Caption {
             title: title("water-into-acid"),
             hottest_c,
+            steam_kg: hottest_c.map(|_| 168e-6),
             thrown_kg,
         }
     }
@@ -118,10 +127,15 @@ mod tests {
         let hot = caption(Some(103.4), 1.26e-3);
         assert_eq!(
             hot.lines(),
-            ["Water into acid", "hottest 103 °C", "thrown 1.3 g"]
+            [
+                "Water into acid",
+                "hottest 103 °C",
+                "steam 168 mg",
+                "thrown 1.3 g"
+            ]
         );
         let spits = caption(Some(95.0), 68.7e-6);
-        assert_eq!(spits.lines()[2], "thrown 69 mg");
+        assert_eq!(spits.lines()[3], "thrown 69 mg");
         let cold = caption(None, 0.0);
         assert_eq!(cold.lines(), ["Water into acid", "thrown 0 mg"]);
         assert_eq!(title(""), "");

@@ -75,7 +75,7 @@ pub struct ReplayArgs {
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
     /// In place of a report: these two scenes at the same time, side by side in a film and an animated picture, with
-    /// highest temperatures and thrown masses as captions
+    /// highest temperatures, steam and thrown masses as captions
     #[arg(long, value_name = "SCENE,SCENE", value_parser = two_scenes)]
     #[arg(conflicts_with_all = ["scene", "budget_ms", "camera", "colour", "language", "lesson", "mode", "no_video"])]
     #[cfg_attr(feature = "class", arg(conflicts_with_all = ["pseudonym", "live"]))]

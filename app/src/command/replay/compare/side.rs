@@ -134,6 +134,7 @@ impl Side {
         Caption {
             title: captions::title(&self.name),
             hottest_c: heat.map(|heat| heat.temperature_max_c),
+            steam_kg: heat.and_then(|heat| Some(heat.ledger.as_ref()?.steam_kg)),
             thrown_kg: self.thrown_kg(),
         }
     }
