@@ -46,9 +46,10 @@ fn weight(kg: f64) -> String {
     }
 }
 
-/// A scene's name as a title: `acid-into-water` is `Acid into water`.
-pub fn title(name: &str) -> String {
-    let words = name.replace('-', " ");
+/// A scene's title up to its first comma, since captions are narrow; of one without a title, its name as one: `my-scene` is `My scene`.
+pub fn title(title: &str) -> String {
+    let shown = title.split(", ").next().unwrap_or(title);
+    let words = shown.replace('-', " ");
     let mut letters = words.chars();
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
@@ -139,6 +140,7 @@ mod tests {
         let cold = caption(None, 0.0);
         assert_eq!(cold.lines(), ["Water into acid", "thrown 0 mg"]);
         assert_eq!(title(""), "");
+        assert_eq!(title("Water on acid, swirled"), "Water on acid");
     }
 
     #[test]

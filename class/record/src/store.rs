@@ -105,7 +105,7 @@ impl Store {
         Ok(store)
     }
 
-    /// Makes the tables where there are none, and reads the class's identifier.
+    /// Makes the tables where there are none, brings older ones to this version, and reads the class's identifier.
     fn prepare(&mut self) -> Result<Uuid, StoreError> {
         let path = self.path.clone();
         let number = |connection: &Connection, name| {

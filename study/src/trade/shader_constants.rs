@@ -37,7 +37,7 @@ groups! {
         NUCLEATION "K" "chosen: gas wider than 30 µm rises out of liquid",
     }
     Bubbles "common/chemistry/bubble_exchange.wgsl" {
-        MOST_GROWTH "m/s" "chosen: growth of a radius within a bubble's contact",
+        MOST_GROWTH "m/s" "chosen: a bound of growth that does not follow d",
         MOST_EXCHANGED "V0·ρ0" "bound: steam in a step",
         MOST_OF_SUPERHEAT "1" "bound: share of what superheat makes, in a step",
         MOST_GIVEN "V0" "bound: gas that a bubble gives",
@@ -84,7 +84,7 @@ groups! {
         TAKES_FLASK "d" "chosen: how near the liquid of another flask is",
     }
     Bubbles "sim/displacement.wgsl" {
-        MOST_PUSHED "m/s" "chosen: as cavities grow and rise; what appears over a particle does not throw it",
+        MOST_PUSHED "m/s" "chosen: what appears over a particle does not throw it",
     }
     Bubbles "sim/multiplier.wgsl" {
         MOST_ALONE "1" "chosen by the rise of a bubble of 7 mm: a little less than a surface has",

@@ -90,8 +90,7 @@ CREATE TABLE sent (
 ) STRICT;
 ";
 
-/// Later tables: what caps the points of an attempt, the danger in a word and the most points that it leaves, with the lowest cap first; and
-/// the view.
+/// What later versions changed: the table of caps (the danger in a word and the most points that it leaves, the lowest first), and the view.
 pub(super) const LATER: &str = "
 CREATE TABLE IF NOT EXISTS caps (
     attempt_id TEXT NOT NULL REFERENCES attempts ON DELETE CASCADE,
@@ -116,6 +115,6 @@ FROM attempts GROUP BY pseudonym ORDER BY pseudonym;
 
 /// Takes out what nothing ever set: a column, and the sum of it in the view.
 pub(super) const WITHOUT_PASSED: &str = "
-DROP VIEW students;
+DROP VIEW IF EXISTS students;
 ALTER TABLE attempts DROP COLUMN passed;
 ";

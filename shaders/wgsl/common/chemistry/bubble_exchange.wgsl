@@ -11,7 +11,7 @@ const MOST_OF_SUPERHEAT: f32 = 0.5;
 /// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
 const MOST_GIVEN: f32 = 8.0;
 
-/// Greatest speed with which a bubble's radius grows, m/s: a faster one would take in a step what lies beyond its contact. Chosen.
+/// Greatest speed with which a bubble's radius grows, m/s: 1.5 mm in a step of 1/360 s. With a bound by d steam would depend on d. Chosen.
 const MOST_GROWTH: f32 = 0.54;
 
 /// T of what a bubble holds, °C: the few quanta of steam that a bubble of air may have would have none by themselves.

@@ -136,6 +136,41 @@ fn a_bubble_grows_as_scriven_says() {
     }
 }
 
+/// In water of 130 °C a bubble of 0.5 mm would have 5 mm after 5.6 ms by Scriven's law. Its radius grows by 0.54 m/s at most, whatever d is.
+/// Until 2026-11-30 it grew by d a step at most: faster in coarse particles.
+#[test]
+fn growth_has_a_bound_that_does_not_follow_d() {
+    let device = gpu::device();
+    for spacing in [0.0029, 0.00145] {
+        let profile = Profile::new(&[[0.0, 0.02], [0.06, 0.02]], 0.002).unwrap();
+        let count = (3e-5 / f64::powi(spacing, 3)) as usize;
+        let mut particles = water_of(&profile, Pose::IDENTITY, spacing, count);
+        fill(&mut particles, |_| (130.0, 0.0));
+        let p = Parameters {
+            spacing,
+            support_radius: 2.0 * spacing,
+            margin: 2e-3 * spacing,
+            ..quick()
+        };
+        let clean = bubbling(bubbly(), |it| it.nuclei_spacing = 1e3);
+        let solver = Setup::new(of(clean, p), vec![profile], particles).solver(&device);
+        frames(&device, &solver, &[Pose::IDENTITY], 4);
+        put(&solver, 1, DVec3::new(0.0, 0.012, 0.0), 0.5e-3, 130.0);
+        let after = [1, 2, 3, 4].map(|k| {
+            frames(&device, &solver, &[Pose::IDENTITY], 1);
+            (f64::from(k) * STEP, f64::from(bubble(&solver).radius))
+        });
+        eprintln!("d = {spacing}: {after:?}");
+        for (time, radius) in after {
+            let most = 0.5e-3 + 0.54 * time;
+            assert!(
+                (radius / most - 1.0).abs() < 0.05,
+                "{spacing}: {radius}, {most}"
+            );
+        }
+    }
+}
+
 /// In acid growth waits for water, too (Scriven 1959, binary): by 1 + √(α/D)·c·(dT_b/dc)·cp/L, and by the other factors of the Jakob
 /// number. By hand at 50 %: α 1.42e-7, D 2.9e-9 m²/s, 128 K, 2577 J/(kg K), 2.6 MJ/kg, so 1.46 × 1.075 × 1.09. At 70 %: 1.29e-7, 2.3e-9,
 /// 302, 2126, 2.55, so 2.32 × 1.01 × 1.14. D is Stokes's and Einstein's of 1.7e-9 at 25 °C. 15 %.

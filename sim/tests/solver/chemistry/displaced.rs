@@ -178,8 +178,8 @@ fn a_bubble_that_grows_in_a_tube_lifts_the_liquid_above_it() {
     );
 }
 
-/// A bubble that is there at once, as where two join, is given no work. Nothing is faster then than what falls through the whole depth, and a
-/// fifth. Until 2026-11-30 liquid had 1.6 to 2.2 m/s, as it was shifted by up to h in a substep.
+/// A bubble that is there at once, as where two join, is given no work. Nothing is faster then than what falls through the whole depth; a
+/// fifth more is allowed, as cavities shift particles by discrete steps. Until 2026-11-30 liquid had 1.6 to 2.2 m/s, as it was shifted by up to h in a substep.
 #[test]
 fn what_appears_throws_no_liquid() {
     let device = gpu::device();
@@ -197,9 +197,13 @@ fn what_appears_throws_no_liquid() {
             let state = solver.snapshot().unwrap();
             let speeds = state.velocities.iter().map(|&v| at(v).length());
             fastest = speeds.fold(fastest, f64::max);
+            assert_eq!(live(&state).count(), 1);
         }
         eprintln!("{radius} m: {fastest} m/s, of {falls} m/s");
-        assert!(fastest < 1.2 * falls, "{radius}: {fastest}");
+        assert!(
+            fastest > 0.05 && fastest < 1.2 * falls,
+            "{radius}: {fastest}"
+        );
     }
 }
 

@@ -49,7 +49,7 @@ fn born(device: &Gpu, spacing: f64, nuclei: f64, temperature: f64, steps: usize)
 }
 
 /// The number of nuclei that grow rises with the cube of the vapour's excess pressure, as N(>R) ∝ R⁻³ and R = 2σ/Δp (Brennen 1995), and
-/// does not depend on d. Poisson's noise of 200 is 7 %; a particle has one nucleus at most, whence the exponential.
+/// does not depend on d. Poisson's noise of 200 is 7 %; a particle has one bubble at most in a step, whence the exponential.
 #[test]
 fn nuclei_grow_by_the_pressure_of_the_vapour() {
     let device = gpu::device();

@@ -1,7 +1,7 @@
 //! One of two experiments that keep up with each other.
 
 use glam::Vec3;
-use vitriol_lesson::{Attempt, layered};
+use vitriol_lesson::{Attempt, Language, Texts, layered};
 use vitriol_run::captions::{self, Caption};
 use vitriol_run::{
     Colour, DeviceStatement, Experiment, FILM_FPS, Failure, Look, Sample, Setup, SimulatedTime,
@@ -26,6 +26,7 @@ const BENCH: Look = Look {
 /// One of the two experiments.
 pub(super) struct Side {
     name: String,
+    title: String,
     scene: Scene,
     experiment: Box<dyn Experiment>,
     source: TrackSource,
@@ -55,7 +56,9 @@ impl Side {
             look: (plan.scene.scale.length_scale == 1.0).then_some(BENCH),
             ..plan.setup(args.device.as_deref())
         })?;
+        let texts = Texts::of(Language::English).other()?;
         let mut side = Self {
+            title: captions::title(texts.scene(&plan.name)),
             name: plan.name,
             scene: plan.scene,
             experiment,
@@ -132,7 +135,7 @@ impl Side {
     pub(super) fn caption(&self) -> Caption {
         let heat = self.samples.last().and_then(|it| it.heat.as_ref());
         Caption {
-            title: captions::title(&self.name),
+            title: self.title.clone(),
             hottest_c: heat.map(|heat| heat.temperature_max_c),
             steam_kg: heat.and_then(|heat| Some(heat.ledger.as_ref()?.steam_kg)),
             thrown_kg: self.thrown_kg(),
