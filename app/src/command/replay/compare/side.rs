@@ -4,8 +4,8 @@ use glam::Vec3;
 use vitriol_lesson::{Attempt, Language, Texts, layered};
 use vitriol_run::captions::{self, Caption};
 use vitriol_run::{
-    Colour, DeviceStatement, Experiment, FILM_FPS, Failure, Look, Sample, Setup, SimulatedTime,
-    Span, Stepping, boiling, sample_is_due,
+    Blame, Colour, DeviceStatement, Experiment, FILM_FPS, Failure, Look, Sample, Setup,
+    SimulatedTime, Span, Stepping, boiling, sample_is_due,
 };
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
@@ -56,7 +56,7 @@ impl Side {
             look: (plan.scene.scale.length_scale == 1.0).then_some(BENCH),
             ..plan.setup(args.device.as_deref())
         })?;
-        let texts = Texts::of(Language::English).other()?;
+        let texts = Texts::of(Language::En).other()?;
         let mut side = Self {
             title: captions::title(texts.scene(&plan.name)),
             name: plan.name,
