@@ -9,8 +9,8 @@
 
 /// Excess pressure of vapour, over an atmosphere, at which as many nuclei grow as there are particles.
 override NUCLEUS_PRESSURE: f32 = 1e9;
-/// Time between two bubbles of a nucleus that grows, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at 100 °C, and
-/// bubbles leave with 4 mm (chosen, as they leave what is clean).
+/// Time between two bubbles of a nucleus that grows, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), 0.092 m/s in water at
+/// 100 °C, and bubbles leave with 4 mm (chosen, as they leave what is clean).
 const NUCLEUS_WAIT: f32 = 0.0435;
 
 /// Latent heat of water over the gas constant of its vapour, K.
