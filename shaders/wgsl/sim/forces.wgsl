@@ -209,8 +209,7 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
         boils[i] = boil;
         let nuclei = growing_nuclei(boil.x, potential.temperature);
         if (held.w <= 0.0 && nucleus_grows(identity, nuclei)) {
-            // Each of them has bubbles, so that liquid has as many of them in coarse particles as in fine ones.
-            held.w = NUCLEUS_WAIT / max(nuclei, 1.0);
+            held.w = NUCLEUS_WAIT * share_of_nuclei(nuclei);
             claim(identity, i, 0u);
         }
     }

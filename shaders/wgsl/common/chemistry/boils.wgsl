@@ -47,6 +47,13 @@ fn nucleus_grows(identity: u32, nuclei: f32) -> bool {
     return nuclei > -log(chance);
 }
 
+/// What a nucleus's wait is multiplied by in a particle where one or more of `nuclei` in the mean grow, (1 − exp(−n))/n: each nucleus then has
+/// its bubbles, as many in coarse particles as in fine ones.
+fn share_of_nuclei(nuclei: f32) -> f32 {
+    // Of few, the difference would be rounding.
+    return select(1.0 - 0.5 * nuclei, (1.0 - exp(-nuclei)) / nuclei, nuclei > 0.01);
+}
+
 /// Place of a bubble that is born at a particle at x: another one each time.
 fn place_of_birth(identity: u32, x: vec3<f32>) -> u32 {
     let bits = bitcast<vec3<u32>>(x);
