@@ -28,12 +28,14 @@ override UNREST: f32 = 0.2;
 override WARM: f32 = 5.0;
 override VARIED: f32 = 1e-6;
 
-/// Keeps those flasks awake that a particle outside all of them may reach in two frames.
-fn visit(x: vec3<f32>, v: vec3<f32>) {
+/// No flask.
+const NONE = 0xffffffffu;
+
+/// Keeps those flasks awake but `own` that a particle may reach in two frames.
+fn visit(own: u32, x: vec3<f32>, v: vec3<f32>) {
     let reach = CLEARANCE + 2.0 * FRAME_TIME * length(v);
     for (var k = 0u; k < FLASKS; k++) {
-        let about = sphere_about(k, poses[step.after + k]);
-        if (distance(x, about.xyz) < about.w + reach) { keep_awake(k); }
+        if (k != own && way_to(k, poses[step.after + k], x) < reach) { keep_awake(k); }
     }
 }
 
@@ -54,7 +56,6 @@ fn note_bubbles() {
 var<workgroup> common_flask: u32;
 var<workgroup> common_unrest: atomic<i32>;
 
-const NONE = 0xffffffffu;
 
 /// A particle's square of the speed less what it may be on average, in sixteenths of the latter: a million particles fit the sum.
 fn unrest_of(square: f32) -> i32 {
@@ -73,10 +74,12 @@ fn note(i: u32) -> u32 {
     }
     let v = velocity[i].xyz;
     if (membership == NOBODYS) {
-        visit(position[i].xyz, v);
+        visit(NONE, position[i].xyz, v);
         return NONE;
     }
     let k = membership - 1u;
+    // Liquid meets that of another flask through their mouths, where its own is dipped in or emptied.
+    if ((atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, position[i].xyz, v); }
     // Lists that are longer than a place are made anew with every other list. Of those that sleep, one came in after this frame began.
     var lively = !(dot(v, v) <= SLOW * SLOW) || list_counts[i] > LIST_CAPACITY || sleeps(membership);
     if (HEAT) {

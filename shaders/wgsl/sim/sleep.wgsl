@@ -33,22 +33,22 @@ fn moves(k: u32) -> bool {
     return has_moved(poses[k].position.xyz, poses[k].orientation, poses[step.after + k]);
 }
 
-/// Bit of `lively` of a flask that moves, or has drifted; `keep_awake` sets the lowest.
-const MOVED = 2u;
-
 /// Notes whether flask k moves or has drifted.
 fn note_motion(k: u32) {
     let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, poses[step.after + k]);
-    if (drifted || moves(k)) { atomicOr(&flask_sleeps[k].lively, MOVED); }
+    let kept = atomicLoad(&flask_sleeps[k].lively) & LIVELY;
+    atomicStore(&flask_sleeps[k].lively, kept | select(0u, MOVED, drifted || moves(k)));
 }
 
-/// Whether a flask that moves is near flask k.
-fn is_visited(k: u32) -> bool {
-    let own = sphere_about(k, poses[k]);
+/// Whether a flask leaps next to flask k. What is carried there slowly is noticed by its liquid (`sim/calm.wgsl`): the glass of another flask does
+/// not act on liquid in a flask.
+fn is_leapt_at(k: u32) -> bool {
     for (var other = 0u; other < FLASKS; other++) {
-        if (other == k || (atomicLoad(&flask_sleeps[other].lively) & MOVED) == 0u) { continue; }
-        let about = sphere_about(other, poses[step.after + other]);
-        if (distance(own.xyz, about.xyz) < own.w + about.w + CLEARANCE) { return true; }
+        let to = poses[step.after + other];
+        if (other == k || distance(flask_sleeps[other].position, to.position.xyz) < CLEARANCE) { continue; }
+        let half = 0.5 * flasks[other].rim;
+        let middle = stage_from_flask(to, vec3<f32>(0.0, half, 0.0));
+        if (way_to(k, poses[k], middle) < length(vec2<f32>(half, flasks[other].outer)) + CLEARANCE) { return true; }
     }
     return false;
 }
@@ -69,7 +69,7 @@ fn main() {
         let unrest = atomicExchange(&flask_sleeps[k].unrest, 0);
         let lively = unrest > 0 || atomicLoad(&flask_sleeps[k].lively) != 0u;
         let even = is_even(k);
-        if (lively || !even || is_visited(k)) {
+        if (lively || !even || is_leapt_at(k)) {
             flask_sleeps[k].calm = 0u;
             flask_sleeps[k].position = pose.position.xyz;
             flask_sleeps[k].orientation = pose.orientation;
@@ -80,7 +80,7 @@ fn main() {
         changed = changed || sleeps != sleep[2u + k];
         sleep[2u + k] = sleeps;
     }
-    for (var k = 0u; k < FLASKS; k++) { atomicStore(&flask_sleeps[k].lively, 0u); }
+    for (var k = 0u; k < FLASKS; k++) { atomicAnd(&flask_sleeps[k].lively, MOVED); }
     sleep[1] = select(sleep[0], COUNT, changed);
     if (changed) {
         ask_for_list(COUNT);

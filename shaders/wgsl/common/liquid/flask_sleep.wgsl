@@ -8,7 +8,7 @@ struct FlaskSleep {
     /// Frames since something last moved, came near or was not even, up to `CALM_FRAMES`.
     calm: u32,
     orientation: vec4<f32>,
-    /// Above 0 where something of the last frame keeps its liquid awake; at a frame's start also the bits of `sim/sleep.wgsl`.
+    /// `LIVELY` and `MOVED`.
     lively: atomic<u32>,
     /// Least and greatest acid fraction of its particles in the last frame, bits of an f32.
     least_acid: atomic<u32>,
@@ -19,16 +19,23 @@ struct FlaskSleep {
 
 @group(0) @binding(60) var<storage, read_write> flask_sleeps: array<FlaskSleep>;
 
-/// Distance that liquid and moving flasks keep from a flask whose liquid sleeps, m (`solver/sleep.rs`).
-override CLEARANCE: f32 = 0.03;
+/// Distance that liquid of elsewhere keeps from a flask whose liquid sleeps, m (`solver/sleep.rs`).
+override CLEARANCE: f32 = 0.015;
 
-/// A sphere about a flask at `pose`: its middle and radius.
-fn sphere_about(k: u32, pose: FlaskPose) -> vec4<f32> {
-    let half = 0.5 * flasks[k].rim;
-    return vec4<f32>(stage_from_flask(pose, vec3<f32>(0.0, half, 0.0)), length(vec2<f32>(half, flasks[k].outer)));
+/// Bits of `lively`: something of the last frame keeps the liquid awake; the flask moves in this frame, or has drifted.
+const LIVELY = 1u;
+const MOVED = 2u;
+
+/// Way from x (stage) to the cylinder about a flask, m; 0 within it.
+fn way_to(k: u32, pose: FlaskPose, x: vec3<f32>) -> f32 {
+    let p = flask_from_stage(pose, x);
+    let beside = length(p.xz) - flasks[k].outer;
+    let along = max(p.y - flasks[k].rim, -p.y);
+    return length(max(vec2<f32>(beside, along), vec2<f32>(0.0)));
 }
 
 /// Keeps the liquid of a flask awake, or wakes it at the next frame's start.
 fn keep_awake(k: u32) {
-    atomicStore(&flask_sleeps[k].lively, 1u);
+    // Most find it done: if each took part, all would wait for one word.
+    if ((atomicLoad(&flask_sleeps[k].lively) & LIVELY) == 0u) { atomicOr(&flask_sleeps[k].lively, LIVELY); }
 }
