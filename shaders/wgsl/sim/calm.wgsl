@@ -56,7 +56,6 @@ fn note_bubbles() {
 var<workgroup> common_flask: u32;
 var<workgroup> common_unrest: atomic<i32>;
 
-
 /// A particle's square of the speed less what it may be on average, in sixteenths of the latter: a million particles fit the sum.
 fn unrest_of(square: f32) -> i32 {
     return i32(round(16.0 * (min(square / (SLOW * SLOW), 1.0) / (UNREST * UNREST) - 1.0)));
@@ -78,10 +77,11 @@ fn note(i: u32) -> u32 {
         return NONE;
     }
     let k = membership - 1u;
-    // Liquid meets that of another flask through their mouths, where its own is dipped in or emptied.
-    if ((atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, position[i].xyz, v); }
+    let fast = !(dot(v, v) <= SLOW * SLOW);
+    // Liquids of two flasks meet through a mouth that one flask carries to the other, or through which one flows.
+    if (fast || (atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, position[i].xyz, v); }
     // Lists that are longer than a place are made anew with every other list. Of those that sleep, one came in after this frame began.
-    var lively = !(dot(v, v) <= SLOW * SLOW) || list_counts[i] > LIST_CAPACITY || sleeps(membership);
+    var lively = fast || list_counts[i] > LIST_CAPACITY || sleeps(membership);
     if (HEAT) {
         let own = heat[i];
         lively = lively || !(abs(temperature_in(own) - ROOM) <= WARM);

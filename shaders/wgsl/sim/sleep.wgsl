@@ -18,6 +18,8 @@ override CALM_FRAMES: u32 = 18u;
 override STILL: f32 = 1e-4;
 override UPRIGHT: f32 = 1e-3;
 override EVEN: f32 = 1e-3;
+/// Way of a flask in a frame that counts as a leap, m.
+override LEAP: f32 = 0.0075;
 
 /// Whether a flask is no longer where it was.
 fn has_moved(from_position: vec3<f32>, from_orientation: vec4<f32>, to: FlaskPose) -> bool {
@@ -33,21 +35,37 @@ fn moves(k: u32) -> bool {
     return has_moved(poses[k].position.xyz, poses[k].orientation, poses[step.after + k]);
 }
 
+/// Whether flask k goes, at its base or mouth, further than `LEAP` from where it was noted.
+fn leaps(k: u32) -> bool {
+    let noted = FlaskPose(vec4<f32>(flask_sleeps[k].position, 0.0), flask_sleeps[k].orientation);
+    let to = poses[step.after + k];
+    let mouth = vec3<f32>(0.0, flasks[k].rim, 0.0);
+    let way = distance(stage_from_flask(noted, mouth), stage_from_flask(to, mouth));
+    return !(max(way, distance(noted.position.xyz, to.position.xyz)) <= LEAP);
+}
+
+/// Bit of `lively` of a flask that leaps or begins to move: the last frame did not tell whom its liquid may reach (`sim/calm.wgsl`).
+const STARTS = 4u;
+
 /// Notes whether flask k moves or has drifted.
 fn note_motion(k: u32) {
     let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, poses[step.after + k]);
-    let kept = atomicLoad(&flask_sleeps[k].lively) & LIVELY;
-    atomicStore(&flask_sleeps[k].lively, kept | select(0u, MOVED, drifted || moves(k)));
+    let before = atomicLoad(&flask_sleeps[k].lively);
+    var bits = before & LIVELY;
+    if (drifted || moves(k)) {
+        bits |= MOVED;
+        if ((before & MOVED) == 0u || leaps(k)) { bits |= STARTS; }
+    }
+    atomicStore(&flask_sleeps[k].lively, bits);
 }
 
-/// Whether a flask leaps next to flask k. What is carried there slowly is noticed by its liquid (`sim/calm.wgsl`): the glass of another flask does
-/// not act on liquid in a flask.
-fn is_leapt_at(k: u32) -> bool {
+/// Whether a flask that leaps or begins to move is near flask k. The glass of another flask does not act on liquid in a flask, so later only
+/// its liquid matters.
+fn is_met(k: u32) -> bool {
     for (var other = 0u; other < FLASKS; other++) {
-        let to = poses[step.after + other];
-        if (other == k || distance(flask_sleeps[other].position, to.position.xyz) < CLEARANCE) { continue; }
+        if (other == k || (atomicLoad(&flask_sleeps[other].lively) & STARTS) == 0u) { continue; }
         let half = 0.5 * flasks[other].rim;
-        let middle = stage_from_flask(to, vec3<f32>(0.0, half, 0.0));
+        let middle = stage_from_flask(poses[step.after + other], vec3<f32>(0.0, half, 0.0));
         if (way_to(k, poses[k], middle) < length(vec2<f32>(half, flasks[other].outer)) + CLEARANCE) { return true; }
     }
     return false;
@@ -69,7 +87,7 @@ fn main() {
         let unrest = atomicExchange(&flask_sleeps[k].unrest, 0);
         let lively = unrest > 0 || atomicLoad(&flask_sleeps[k].lively) != 0u;
         let even = is_even(k);
-        if (lively || !even || is_leapt_at(k)) {
+        if (lively || !even || is_met(k)) {
             flask_sleeps[k].calm = 0u;
             flask_sleeps[k].position = pose.position.xyz;
             flask_sleeps[k].orientation = pose.orientation;

@@ -176,9 +176,9 @@ fn a_rod_wakes_liquid() {
     assert_eq!(touch(&rod), 500);
 }
 
-/// Two glasses: one whose liquid sleeps, and one 0.3 m beside it with `count` particles of water.
-fn two_glasses(gpu: &Gpu, count: usize) -> Solver {
-    let far = at(0.3, 0.0, 0.0);
+/// Two glasses whose liquid sleeps: one of 500 particles, and one `x` m beside it of `count`.
+fn two_glasses(gpu: &Gpu, count: usize, x: f32) -> Solver {
+    let far = at(x, 0.0, 0.0);
     let mut particles = still();
     particles.extend(water(&narrow_glass(), 1, far, count));
     let mut setup = glass(particles, 1);
@@ -196,7 +196,7 @@ fn water_that_is_carried_near_wakes_liquid() {
     const STEP: f32 = 0.003;
     let gpu = gpu::device();
     for (count, nearest) in [(0, 0.031f32), (100, 0.0)] {
-        let solver = two_glasses(&gpu, count);
+        let solver = two_glasses(&gpu, count, 0.3);
         let (mut x, mut gap) = (0.3f32, f64::INFINITY);
         loop {
             let [from, to] = [x, x - STEP].map(|x| [Pose::IDENTITY, at(x.max(nearest), 0.0, 0.0)]);
@@ -220,19 +220,24 @@ fn water_that_is_carried_near_wakes_liquid() {
     }
 }
 
-/// A flask that leaps, as where a hand is tracked again, may be in the other from one frame to the next.
+/// A flask that leaps, as where a hand is tracked again, may be in the other from one frame to the next; so may one that begins to move beside it.
 #[test]
-fn a_glass_that_leaps_near_wakes_liquid() {
+fn a_glass_that_leaps_or_sets_off_nearby_wakes_liquid() {
     let gpu = gpu::device();
-    let solver = two_glasses(&gpu, 100);
-    let near = at(0.04, 0.0, 0.0);
-    frame(
-        &gpu,
-        &solver,
-        &[Pose::IDENTITY, near],
-        &[Pose::IDENTITY, near],
-    );
-    assert_eq!(solver.awake().unwrap(), 600);
+    let leap = [at(0.26, 0.0, 0.0), at(0.3, 0.0, 0.0)];
+    for after in [leap, [Pose::IDENTITY, at(0.04, 0.0, 0.0)]] {
+        let solver = two_glasses(&gpu, 100, 0.3);
+        frame(&gpu, &solver, &after, &after);
+        assert_eq!(solver.awake().unwrap(), 600, "{after:?}");
+    }
+    let before = [Pose::IDENTITY, at(0.032, 0.0, 0.0)];
+    for moved in [0, 1] {
+        let solver = two_glasses(&gpu, 100, 0.032);
+        let mut after = before;
+        after[moved].position.y += 0.001;
+        frame(&gpu, &solver, &before, &after);
+        assert_eq!(solver.awake().unwrap(), 600, "{moved}");
+    }
 }
 
 /// While one glass sleeps and another is shaken, lists are made anew all the time; those of what sleeps lack nothing, and the

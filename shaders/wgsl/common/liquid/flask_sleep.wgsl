@@ -8,7 +8,7 @@ struct FlaskSleep {
     /// Frames since something last moved, came near or was not even, up to `CALM_FRAMES`.
     calm: u32,
     orientation: vec4<f32>,
-    /// `LIVELY` and `MOVED`.
+    /// `LIVELY` and `MOVED`, and at a frame's start `STARTS`.
     lively: atomic<u32>,
     /// Least and greatest acid fraction of its particles in the last frame, bits of an f32.
     least_acid: atomic<u32>,
