@@ -240,6 +240,20 @@ fn a_glass_that_leaps_or_sets_off_nearby_wakes_liquid() {
     }
 }
 
+/// A flask that creeps, by less than counts as motion in a frame, keeps the liquid beside it awake.
+#[test]
+fn a_glass_that_creeps_nearby_keeps_liquid_awake() {
+    let gpu = gpu::device();
+    let solver = two_glasses(&gpu, 100, 0.035);
+    let mut x = 0.035;
+    for step in 0..60 {
+        let [from, to] = [x, x - 4e-5].map(|x| [Pose::IDENTITY, at(x, 0.0, 0.0)]);
+        frame(&gpu, &solver, &from, &to);
+        x -= 4e-5;
+        assert!(step < 4 || solver.awake().unwrap() == 600, "{step}");
+    }
+}
+
 /// While one glass sleeps and another is shaken, lists are made anew all the time; those of what sleeps lack nothing, and the
 /// others have nothing of it.
 #[test]
