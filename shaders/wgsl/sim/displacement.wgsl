@@ -166,8 +166,7 @@ fn held_back(identity: u32, x: vec3<f32>, to: vec3<f32>) -> vec3<f32> {
 }
 
 /// Greatest speed away from a cavity that its shift leaves a particle, m/s, if it had no more before. What appears over a particle shifts it
-/// by up to h in a substep; with h/Δt, 4 to 5 m/s, it would be thrown. Chosen: presets agree
-/// with it on what hot acid throws.
+/// by up to h in a substep; with h/Δt, 4 to 5 m/s, it would be thrown. Chosen: with it presets differ less in what hot acid boils and throws.
 const MOST_PUSHED: f32 = 0.45;
 
 /// Velocity `v` of particle i less what a cavity's shift `push` (m) gave it beyond that.

@@ -32,8 +32,8 @@ const RISE: f64 = 0.016;
 /// 0.6 mm at the wall then, by their energy (v² = 0.35 g A²/H of the first mode of a round tank).
 const UNREST: f64 = 0.2;
 
-/// Way of a flask in a frame from which on it counts as a leap, in spacings. Liquid of elsewhere keeps that distance from a flask whose liquid
-/// sleeps, the support radius and what gravity adds in a frame. Chosen: 8.7 of 15.7 mm at `fast`.
+/// Way of a flask in a frame from which on it counts as a leap, in spacings. Chosen: 8.7 mm at `fast`. Liquid of elsewhere keeps that and the
+/// support radius, and what gravity adds in a frame, from a flask whose liquid sleeps: 15.7 mm.
 const LEAP: f64 = 3.0;
 
 /// How far a flask may drift, in spacings, and turn, as a length of quaternions (0.1°). Chosen, well below what moves liquid.

@@ -388,7 +388,7 @@ mod long {
             let changed = [end[0] / start[0] - 1.0, (end[1] - start[1]) / scale];
             eprintln!("mass and energy changed by {changed:?}");
             // Rounding leaves 6e-11, one bubble of 2 mm 1e-7. Speeds and heights make up for what boiling spends to 3e-6,
-            // and to 7e-6 where all boils up in a few frames.
+            // and to 8e-6 where all boils up in a few frames.
             assert!((end[0] / start[0] - 1.0).abs() < 1e-8, "{start:?}, {end:?}");
             assert!(
                 (end[1] - start[1]).abs() < 1e-5 * scale,
