@@ -60,7 +60,7 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(16) var<storage, read_write> boils: array<vec4<f32>>;
 /// By identity, see `sim/exchange.wgsl`.
 @group(0) @binding(17) var<storage, read_write> gas: array<vec4<f32>>;
-/// By place of a bubble: one more than the particle at which it is to be born, and whether it is of air. Behind them see `LIVE_GROUPS`.
+/// By place of a bubble: one more than the particle at which it is to be born, and whether it is of air. Behind them see `LIVE_GROUPS` and `LOOK_GROUPS`.
 @group(0) @binding(19) var<storage, read_write> claims: array<atomic<u32>>;
 
 /// By identity: what bubbles did to a particle.
@@ -190,8 +190,9 @@ fn renew(i: u32, tag: vec2<u32>, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
 fn claim(identity: u32, i: u32, what: u32) {
     let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], what | (i + 1u));
     if (other != 0u) { atomicAdd(&counters.bubbles_refused, 1u); }
-    // Of 64 places each (`GROUP` in `solver/bubbles.rs`).
+    // Of 64 and of 256 places each (`unclaimed` in `solver/dormant.rs`).
     atomicStore(&claims[SLOTS + LIVE_GROUPS], SLOTS / 64u);
+    atomicStore(&claims[SLOTS + LOOK_GROUPS], (SLOTS + 255u) / 256u);
 }
 
 /// A particle with the gas of the bubbles around it: it fills more space, and the same pressure moves it further. Where bubbles act next,

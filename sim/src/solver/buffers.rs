@@ -235,8 +235,9 @@ buffers! {
         solution: words_of(&solution),
         /// Records of bubbles before and after a step.
         bubbles: 2 * BUBBLE_WORDS as u64 * places,
-        /// By bubble's place, the particle at which a bubble is to be born, plus one; behind them the size of the dispatch that lists places.
-        claims: where_asked(bubbles.is_some(), places + SIZE_WORDS),
+        /// By bubble's place, the particle at which a bubble is to be born, plus one; behind them the sizes of the dispatches that list places
+        /// and look at them.
+        claims: where_asked(bubbles.is_some(), places + 2 * SIZE_WORDS),
         /// By step and bubble: quanta of steam, enthalpy and air of the bubbles that join it.
         merging: 6 * places,
         /// By set of records and bubble, the place that takes its half if it divides, plus one.

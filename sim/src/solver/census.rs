@@ -6,6 +6,7 @@
 mod seen;
 
 use super::buffers::Buffers;
+use super::dormant;
 use super::pipelines::{Constants, SolverPass};
 use super::spray::spray_left;
 use super::vessels::Vessels;
@@ -37,7 +38,7 @@ pub const SCALDS: f64 = 55.0;
 /// Height up to which liquid lies on table or floor, support radii.
 pub const LYING: f64 = 2.0;
 
-/// As in `census.wgsl`.
+/// As in `common/liquid/tallies.wgsl`.
 const PLACES: usize = 6;
 const WORDS: usize = 23;
 const MOVED_WORDS: usize = 3;
@@ -73,9 +74,11 @@ pub struct LooksMemory {
     is_first: bool,
 }
 
-/// The census pass with its buffers.
+/// The census' passes with their buffers.
 pub(super) struct Looks {
-    pass: SolverPass,
+    particles: SolverPass,
+    /// Over bubbles and drops, where there are some.
+    bubbles: Option<SolverPass>,
     /// `limbs`, `places_before`, `bubbles_before`, `tallies`.
     own: [Buffer; 4],
     units: Units,
@@ -120,13 +123,18 @@ impl Looks {
             ("LYING", LYING * parameters.support_radius),
             ("HARMFUL", HARMFUL),
             ("SCALDS", SCALDS),
-            ("REST_DENSITY", parameters.rest_density),
             ("TOUCHES", 0.5 * parameters.particle_volume().cbrt()),
+        ];
+        let constants = constants.and(&extra);
+        let of_particles = [
             ("PAPERS_BOILING_POINT", papers_boiling_point(parameters)),
             ("RINSING", f64::from(u8::from(rinsing))),
         ];
+        let make = |shader, own: &[_]| constants.pass(gpu, library, &all, shader, own);
+        let bubbles = (slots > 0).then(|| make(sim::CENSUS_BUBBLES, &[]));
         Ok(Self {
-            pass: constants.pass(gpu, library, &all, sim::CENSUS, &extra)?,
+            particles: make(sim::CENSUS, &of_particles)?,
+            bubbles: bubbles.transpose()?,
             own,
             units: Units {
                 flasks,
@@ -151,7 +159,7 @@ fn bound<'a>(
     [limbs, places, bubbles, tallies]: &'a [Buffer; 4],
     b: &'a Buffers,
     vessels: &'a Vessels,
-) -> [&'a Buffer; 16] {
+) -> [&'a Buffer; 17] {
     [
         limbs,
         places,
@@ -163,6 +171,7 @@ fn bound<'a>(
         &b.heat,
         &b.bulk,
         &b.bubbles,
+        &b.claims,
         &b.drops,
         &b.solution,
         &b.poses,
@@ -277,9 +286,7 @@ impl Solver {
             rec.upload(limbs, &parts)?;
         }
         rec.fill(tallies, 0)?;
-        let places = self.parameters.bubbles().map_or(0, |it| 2 * it.slots());
-        let count = self.count.max(places);
-        if count > 0 {
+        if self.count > 0 {
             let units = &looks.units;
             let run = CensusRun {
                 centre: units.centre.as_vec3().to_array(),
@@ -290,8 +297,12 @@ impl Solver {
                 substeps: self.parameters.substeps,
             };
             let all = bound(&looks.own, &self.buffers, &self.vessels);
-            let pass = looks.pass.begin(rec, &all);
-            pass.constants(&run).invocations(count)?;
+            if let (Some(pass), Some(bubbles)) = (&looks.bubbles, self.parameters.bubbles()) {
+                let pass = pass.begin(rec, &all).constants(&run);
+                pass.indirect(&self.buffers.claims, dormant::look_size(bubbles))?;
+            }
+            let pass = looks.particles.begin(rec, &all);
+            pass.constants(&run).invocations(self.count)?;
         }
         Ok(CensusRecord {
             tallies: rec.read_back(tallies)?,
@@ -364,7 +375,7 @@ impl CensusRecord {
 }
 
 impl Units {
-    /// In the order of the words' constants in `census.wgsl`.
+    /// In the order of the words' constants in `common/liquid/tallies.wgsl`.
     fn moved(&self, &[particles, volume, acid]: &[u32; MOVED_WORDS]) -> Moved {
         Moved {
             particles,
@@ -414,7 +425,7 @@ impl Units {
         }
     }
 
-    /// In the order of the words' constants in `census.wgsl`.
+    /// In the order of the words' constants in `common/liquid/tallies.wgsl`.
     fn held(&self, words: &[u32; WORDS]) -> Held {
         let [
             here,

@@ -11,6 +11,9 @@ use vitriol_shaders::layout::TurnoverPlan;
 /// Words of a dispatch's size, padded.
 pub(super) const SIZE_WORDS: u64 = 4;
 
+/// Threads of a workgroup of `sim/census_bubbles.wgsl`.
+const LOOK_GROUP: u32 = 256;
+
 /// Words of a plan of turnovers.
 pub(super) const PLAN_WORDS: u64 = size_of::<TurnoverPlan>() as u64 / 4;
 
@@ -27,6 +30,8 @@ pub struct Dormant {
     pub turnover: bool,
     /// `live`, `bubbles`, `spray` and `cavity`, until a bubble is to be born.
     pub bubbles: bool,
+    /// The look at bubbles and drops, until then: there were none since the last one.
+    pub looks: bool,
 }
 
 /// Bound of a particle's turnover over time and diffusivity, 1/m²: of one that is much lighter than its neighbours, has as many as a list
@@ -45,12 +50,19 @@ pub(super) fn turnover_groups(count: u32, lanes: u32, group: u32) -> u32 {
     (count * lanes).div_ceil(group)
 }
 
-/// `claims` where no bubble is to be born, and whether there are some is not known.
+/// `claims` where no bubble is to be born, and whether there are some is not known. Behind the places are the sizes of the dispatches that
+/// list places, and that look at them.
 pub(super) fn unclaimed(bubbles: &Bubbles) -> Vec<u32> {
     let slots = bubbles.slots();
     let mut claims = vec![0; slots as usize];
     claims.extend([slots / GROUP, 1, 1, 0]);
+    claims.extend([slots.div_ceil(LOOK_GROUP), 1, 1, 0]);
     claims
+}
+
+/// Where in `claims` the size of the look's dispatch over the places of bubbles is, bytes.
+pub(super) fn look_size(bubbles: &Bubbles) -> u64 {
+    4 * (u64::from(bubbles.slots()) + SIZE_WORDS)
 }
 
 impl Solver {
@@ -72,10 +84,12 @@ impl Solver {
         let slots = self.parameters.bubbles().map_or(0, Bubbles::slots) as usize;
         let plan = read::<TurnoverPlan>(&self.gpu, &self.buffers.turnover_plan, 1)?;
         let turnovers = plan.first().map_or(0, |plan| plan.groups[0]);
-        let claims = read::<u32>(&self.gpu, &self.buffers.claims, slots + 1)?;
+        let claims = read::<u32>(&self.gpu, &self.buffers.claims, slots + 8)?;
+        let sleeps = |at: usize| slots > 0 && claims.get(at) == Some(&0);
         Ok(Dormant {
             turnover: self.pipelines.turnover.is_some() && turnovers == 0,
-            bubbles: slots > 0 && claims.get(slots) == Some(&0),
+            bubbles: sleeps(slots),
+            looks: sleeps(slots + SIZE_WORDS as usize),
         })
     }
 }

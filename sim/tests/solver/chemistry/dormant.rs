@@ -2,6 +2,7 @@
 
 use super::bubbles::of;
 use super::setup::*;
+use crate::census::look;
 use crate::common::*;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -62,21 +63,26 @@ fn same_bits_as_with_all_passes() {
             });
             // All of it, and not its hash alone.
             assert!(state == same, "{lanes} lanes, frame {n}");
+            let [look, same] = [&with, &without].map(|solver| look(&device, solver, &[]));
+            assert_eq!(look, same, "{lanes} lanes, frame {n}");
             assert_eq!(without.dormant().unwrap(), Dormant::default());
             let dormant = with.dormant().unwrap();
             assert!(!dormant.bubbles || !has_bubbles(&state), "frame {n}");
+            assert!(dormant.bubbles || !dormant.looks, "frame {n}");
             bubbled |= has_bubbles(&state);
             sprayed |= has_spray(&state);
             seen.push(dormant);
             if n == RESTORED {
+                let memory = with.looks_memory().unwrap();
                 with.restore(&state).unwrap();
+                with.remember_looks(&memory).unwrap();
                 assert_eq!(with.dormant().unwrap(), Dormant::default());
             }
         }
         assert!(bubbled && sprayed, "{bubbled} {sprayed}");
         let (quiet, violent) = seen.split_at(QUIET);
         // Before anything meets, no pass looks for bubbles.
-        assert!(quiet.iter().all(|it| it.bubbles), "{quiet:?}");
+        assert!(quiet.iter().all(|it| it.bubbles && it.looks), "{quiet:?}");
         // The restored state wakes both for a frame; that is not counted.
         let awake =
             |(n, it): (usize, &Dormant)| n + QUIET != RESTORED + 1 && !it.turnover && !it.bubbles;
