@@ -22,7 +22,27 @@ fn note_awake(count: u32) {
     awake_args[4] = max((count * LANES + 63u) / 64u, 1u);
 }
 
+/// By thread: number of particles in its cells, and in those of its share of the blocks before; then how many of its run are before it.
 var<workgroup> sums: array<u32, 256>;
+var<workgroup> earlier: array<u32, 256>;
+/// By run of 16 threads. A barrier costs more than that many sums.
+var<workgroup> runs: array<u32, 16>;
+var<workgroup> earlier_runs: array<u32, 16>;
+
+/// Sums up one run of threads.
+fn sum_run(run: u32) {
+    var sum = 0u;
+    var before = 0u;
+    for (var n = 0u; n < 16u; n++) {
+        let thread = 16u * run + n;
+        let own = sums[thread];
+        sums[thread] = sum;
+        sum += own;
+        before += earlier[thread];
+    }
+    runs[run] = sum;
+    earlier_runs[run] = before;
+}
 
 @compute @workgroup_size(256)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -34,24 +54,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let total = c + cell_counts[first + 3u];
     var of_blocks = 0u;
     for (var block = local; block < group.x; block += 256u) { of_blocks += block_counts[block]; }
-    sums[local] = of_blocks;
-    workgroupBarrier();
-    for (var reach = 128u; reach > 0u; reach >>= 1u) {
-        if (local < reach) { sums[local] += sums[local + reach]; }
-        workgroupBarrier();
-    }
-    let before_block = sums[0];
-    workgroupBarrier();
     sums[local] = total;
+    earlier[local] = of_blocks;
     workgroupBarrier();
-    for (var reach = 1u; reach < 256u; reach <<= 1u) {
-        var add = 0u;
-        if (local >= reach) { add = sums[local - reach]; }
-        workgroupBarrier();
-        sums[local] += add;
-        workgroupBarrier();
-    }
-    let before = before_block + sums[local] - total;
+    if (local < 16u) { sum_run(local); }
+    workgroupBarrier();
+    var before = sums[local];
+    for (var run = 0u; run < 16u; run++) { before += earlier_runs[run] + select(0u, runs[run], run < local / 16u); }
     // What comes before the second half is awake.
     if (SLEEP && first == 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { note_awake(before); }
     cell_starts[first] = before;

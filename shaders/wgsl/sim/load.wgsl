@@ -64,11 +64,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
         angulars[local] = select(none, vec4<f32>(cross(arm, impulse), energy), mine);
         offsets[local] = select(none, vec4<f32>(arm * mass, 0.0), mine);
         workgroupBarrier();
-        for (var reach = 128u; reach > 0u; reach >>= 1u) {
+        // Four at a time, since a barrier costs more than the sums.
+        for (var reach = 64u; reach > 0u; reach >>= 2u) {
             if (local < reach) {
-                impulses[local] += impulses[local + reach];
-                angulars[local] += angulars[local + reach];
-                offsets[local] += offsets[local + reach];
+                let b = local + reach;
+                let c = b + reach;
+                let d = c + reach;
+                impulses[local] = (impulses[local] + impulses[c]) + (impulses[b] + impulses[d]);
+                angulars[local] = (angulars[local] + angulars[c]) + (angulars[b] + angulars[d]);
+                offsets[local] = (offsets[local] + offsets[c]) + (offsets[b] + offsets[d]);
             }
             workgroupBarrier();
         }
