@@ -5,9 +5,6 @@
 //!include common/liquid/particle.wgsl
 //!include common/liquid/tallies.wgsl
 
-/// Acid fraction, and temperature in °C, from which on liquid hurts.
-override HARMFUL: f32 = 0.05;
-override SCALDS: f32 = 55.0;
 /// T_B of the paper, °C; the physical chemistry has one for each composition.
 override PAPERS_BOILING_POINT: f32 = 100.0;
 /// Whether the user's hands can be rinsed.

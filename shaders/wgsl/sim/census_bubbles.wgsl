@@ -7,13 +7,8 @@
 //!include common/liquid/particle.wgsl
 //!include common/liquid/tallies.wgsl
 
-/// Acid fraction, and temperature in °C, from which on liquid hurts.
-override HARMFUL: f32 = 0.05;
-override SCALDS: f32 = 55.0;
 /// ρ0, kg/m³.
 override REST_DENSITY: f32 = 1000.0;
-
-const BUBBLE_RADII = 1.0 / 256.0;
 
 /// Volume of a sphere of radius 1.
 const SPHERE = 4.18879;

@@ -7,6 +7,9 @@
 override WHOLE: u32 = 65536u;
 /// Height over table or floor up to which liquid lies on it, m.
 override LYING: f32 = 0.01;
+/// Acid fraction, and temperature in °C, from which on liquid hurts.
+override HARMFUL: f32 = 0.05;
+override SCALDS: f32 = 55.0;
 /// Half of a particle, m: as near to skin it touches.
 override TOUCHES: f32 = 0.00125;
 
@@ -69,6 +72,7 @@ const WARMTHS = vec2<f32>(-50.0, 350.0);
 const SUPERHEATS = vec2<f32>(-350.0, 150.0);
 const VOLUMES = 8.0;
 const SPEEDS = 8.0;
+const BUBBLE_RADII = 1.0 / 256.0;
 
 /// A look.
 struct CensusRun {
