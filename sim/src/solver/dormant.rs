@@ -84,7 +84,11 @@ impl Solver {
         let slots = self.parameters.bubbles().map_or(0, Bubbles::slots) as usize;
         let plan = read::<TurnoverPlan>(&self.gpu, &self.buffers.turnover_plan, 1)?;
         let turnovers = plan.first().map_or(0, |plan| plan.groups[0]);
-        let claims = read::<u32>(&self.gpu, &self.buffers.claims, slots + 2 * SIZE_WORDS as usize)?;
+        let claims = read::<u32>(
+            &self.gpu,
+            &self.buffers.claims,
+            slots + 2 * SIZE_WORDS as usize,
+        )?;
         let sleeps = |at: usize| slots > 0 && claims.get(at) == Some(&0);
         Ok(Dormant {
             turnover: self.pipelines.turnover.is_some() && turnovers == 0,
