@@ -126,13 +126,7 @@ impl Solver {
             (spec.ground.scale, spec.tools),
             (&constants, &buffers, &vessels),
         )?;
-        let start = SolverState::start(
-            spec.particles,
-            &grid,
-            &spec.parameters,
-            spec.flasks.len(),
-            spec.loads,
-        );
+        let start = SolverState::start(spec, &grid);
         let solver = Self {
             lengths: snapshot::lengths(&start),
             gpu: gpu.clone(),

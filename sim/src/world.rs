@@ -157,6 +157,7 @@ impl World {
             solids: solids.as_deref(),
             ground: ground(scene),
             particles: &particles,
+            at_rest: true,
             loads: scene.flasks.iter().any(|flask| !flask.fixed),
             tools: !scene.tools.is_empty(),
             constraint,

@@ -32,6 +32,7 @@ pub fn alone(parameters: Parameters, particles: &[Particle]) -> SolverSpec<'_> {
             scale: 1.0,
         },
         particles,
+        at_rest: false,
         tools: false,
         loads: false,
         constraint: true,

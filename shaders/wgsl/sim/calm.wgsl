@@ -31,12 +31,20 @@ override VARIED: f32 = 1e-6;
 /// No flask.
 const NONE = 0xffffffffu;
 
-/// Keeps those flasks awake but `own` that a particle may reach in two frames.
+/// Keeps the liquid of those flasks awake but `own` that a particle may reach in two frames. What is in no flask may fall into one, and has to
+/// find it awake; what is in another flask meets liquid alone.
 fn visit(own: u32, x: vec3<f32>, v: vec3<f32>) {
     let reach = CLEARANCE + 2.0 * FRAME_TIME * length(v);
     for (var k = 0u; k < FLASKS; k++) {
-        if (k != own && way_to(k, poses[step.after + k], x) < reach) { keep_awake(k); }
+        let height = select(flask_sleeps[k].top, flasks[k].rim, own == NONE);
+        if (k != own && way_to(k, poses[step.after + k], height, x) < reach) { keep_awake(k); }
     }
+}
+
+/// Notes how high up in flask k there is liquid. Most is lower than what is noted already.
+fn note_height(k: u32, x: vec3<f32>) {
+    let bits = bitcast<u32>(max(flask_from_stage(poses[step.after + k], x).y, 0.0));
+    if (bits > atomicLoad(&flask_sleeps[k].highest)) { atomicMax(&flask_sleeps[k].highest, bits); }
 }
 
 /// Notes an acid fraction of flask k. Most lie between those that are noted already: if each took part, all would wait for one word.
@@ -61,6 +69,12 @@ fn unrest_of(square: f32) -> i32 {
     return i32(round(16.0 * (min(square / (SLOW * SLOW), 1.0) / (UNREST * UNREST) - 1.0)));
 }
 
+/// Velocity of a particle, m/s; 0 of liquid that settles, as the next frame begins with.
+fn velocity_of(i: u32) -> vec3<f32> {
+    if (settles(tags[i].x)) { return vec3<f32>(0.0); }
+    return velocity[i].xyz;
+}
+
 /// Notes what a particle does; its flask, or `NONE`.
 fn note(i: u32) -> u32 {
     if (i >= sorted_count()) { return NONE; }
@@ -71,12 +85,13 @@ fn note(i: u32) -> u32 {
         if (sorted_count() < COUNT) { keep_awake(membership - 1u); }
         return NONE;
     }
-    let v = velocity[i].xyz;
+    let v = velocity_of(i);
     if (membership == NOBODYS) {
         visit(NONE, position[i].xyz, v);
         return NONE;
     }
     let k = membership - 1u;
+    note_height(k, position[i].xyz);
     let fast = !(dot(v, v) <= SLOW * SLOW);
     // Liquids of two flasks meet through a mouth that one flask carries to the other, or through which one flows.
     if (fast || (atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, position[i].xyz, v); }
@@ -105,7 +120,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     }
     workgroupBarrier();
     if (k != NONE) {
-        let v = velocity[i].xyz;
+        let v = velocity_of(i);
         let unrest = unrest_of(dot(v, v));
         if (k == common_flask) { atomicAdd(&common_unrest, unrest); } else { atomicAdd(&flask_sleeps[k].unrest, unrest); }
     }

@@ -30,5 +30,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
-    predict(i, position[i].xyz, velocity[i].xyz, volume, tags[i].x, step.before, step.after);
+    var v = velocity[i].xyz;
+    if (settles(tags[i].x)) { v = vec3<f32>(0.0); }
+    predict(i, position[i].xyz, v, volume, tags[i].x, step.before, step.after);
 }

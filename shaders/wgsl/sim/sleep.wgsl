@@ -5,6 +5,7 @@
 //!include common/chemistry/turnover_plan.wgsl
 //!include common/liquid/flask_sleep.wgsl
 //!include common/liquid/list_asked.wgsl
+//!include common/liquid/sleep_words.wgsl
 //!include common/liquid/step.wgsl
 
 /// Frames for which nothing may happen before liquid sleeps.
@@ -64,9 +65,9 @@ fn note_motion(k: u32) {
 fn is_met(k: u32) -> bool {
     for (var other = 0u; other < FLASKS; other++) {
         if (other == k || (atomicLoad(&flask_sleeps[other].lively) & STARTS) == 0u) { continue; }
-        let half = 0.5 * flasks[other].rim;
+        let half = 0.5 * flask_sleeps[other].top;
         let middle = stage_from_flask(poses[step.after + other], vec3<f32>(0.0, half, 0.0));
-        if (way_to(k, poses[k], middle) < length(vec2<f32>(half, flasks[other].outer)) + CLEARANCE) { return true; }
+        if (way_to(k, poses[k], flask_sleeps[k].top, middle) < length(vec2<f32>(half, flasks[other].outer)) + CLEARANCE) { return true; }
     }
     return false;
 }
@@ -81,7 +82,11 @@ fn is_even(k: u32) -> bool {
 @compute @workgroup_size(1)
 fn main() {
     var changed = false;
-    for (var k = 0u; k < FLASKS; k++) { note_motion(k); }
+    for (var k = 0u; k < FLASKS; k++) {
+        note_motion(k);
+        // Of liquid that sleeps no pass notes it.
+        if (sleep[SLEEP_FLASKS + k] != ASLEEP) { flask_sleeps[k].top = bitcast<f32>(atomicExchange(&flask_sleeps[k].highest, 0u)); }
+    }
     for (var k = 0u; k < FLASKS; k++) {
         let pose = poses[step.after + k];
         let unrest = atomicExchange(&flask_sleeps[k].unrest, 0);
@@ -94,12 +99,14 @@ fn main() {
         } else {
             flask_sleeps[k].calm = min(flask_sleeps[k].calm + 1u, CALM_FRAMES);
         }
-        let sleeps = select(0u, 1u, flask_sleeps[k].calm == CALM_FRAMES);
-        changed = changed || sleeps != sleep[2u + k];
-        sleep[2u + k] = sleeps;
+        let before = sleep[SLEEP_FLASKS + k];
+        let sleeps = flask_sleeps[k].calm == CALM_FRAMES;
+        changed = changed || sleeps != (before == ASLEEP);
+        let settles = before > SETTLES && !moves(k);
+        sleep[SLEEP_FLASKS + k] = select(select(0u, before - 1u, settles), ASLEEP, sleeps);
     }
     for (var k = 0u; k < FLASKS; k++) { atomicAnd(&flask_sleeps[k].lively, MOVED); }
-    sleep[1] = select(sleep[0], COUNT, changed);
+    sleep[SLEEP_SORTED] = select(sleep[SLEEP_AWAKE], COUNT, changed);
     if (changed) {
         ask_for_list(COUNT);
         // Nothing is known of the eddies of what woke up.

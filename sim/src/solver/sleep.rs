@@ -16,7 +16,10 @@ use vitriol_shaders::layout::FlaskSleep;
 pub(super) const HEAD: usize = 2;
 
 /// Words of a flask in `flask_sleeps`.
-const FLASK_WORDS: usize = 12;
+const FLASK_WORDS: usize = size_of::<FlaskSleep>() / 4;
+
+/// What the word of a flask in `sleep` is more than while its liquid settles, by the number of frames left, as in `common/liquid/awake.wgsl`.
+const SETTLES: u32 = 256;
 
 /// Where in `awake_args` the size of a dispatch in workgroups of 64 is, bytes.
 const IN_64: u64 = 16;
@@ -59,19 +62,34 @@ pub(super) struct SleepState {
 }
 
 impl SleepState {
-    /// All liquid is awake.
-    pub(super) fn start(is_on: bool, loads: bool, count: usize, flasks: usize) -> Self {
-        if !is_on {
+    /// All liquid is awake, and what stands in flasks settles.
+    pub(super) fn start(spec: &SolverSpec<'_>) -> Self {
+        let (count, flasks) = (spec.particles.len(), spec.flasks.len());
+        if !is_on(&spec.parameters, flasks) {
             return Self::default();
         }
-        let mut sleep = vec![0; HEAD + flasks];
-        sleep[0] = count as u32;
+        let settles = match spec.at_rest {
+            true => SETTLES + 1 + calm_frames(&spec.parameters),
+            false => 0,
+        };
+        let mut sleep = vec![settles; HEAD + flasks];
+        sleep[..HEAD].copy_from_slice(&[count as u32, 0]);
         Self {
             sleep,
             flasks: vec![[0; FLASK_WORDS]; flasks],
-            pushes: vec![[0.0; 4]; if loads { count } else { 0 }],
+            pushes: vec![[0.0; 4]; if spec.loads { count } else { 0 }],
         }
     }
+}
+
+/// Frames of `CALM_TIME`.
+fn calm_frames(p: &Parameters) -> u32 {
+    (CALM_TIME / p.frame_time).ceil() as u32
+}
+
+/// T of the room, °C.
+fn room(p: &Parameters) -> f64 {
+    wall_heat::losses(p.chemistry.as_ref()).map_or(ROOM_TEMPERATURE, |losses| losses.ambient)
 }
 
 /// Whether liquid of a scene with so many flasks may sleep. Not over a plate, which heats on.
@@ -117,10 +135,9 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
     let d = p.spacing;
     let [drift, turn] = unmoved(p);
     let gravity = glam::DVec3::from(p.gravity).length();
-    let room = wall_heat::losses(p.chemistry.as_ref()).map_or(ROOM_TEMPERATURE, |l| l.ambient);
     vec![
         ("SLEEP", 1.0),
-        ("CALM_FRAMES", (CALM_TIME / p.frame_time).ceil()),
+        ("CALM_FRAMES", calm_frames(p).into()),
         ("SLOW", (2.0 * gravity * RISE * d).sqrt()),
         ("UNREST", UNREST),
         ("LEAP", LEAP * d),
@@ -130,7 +147,7 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<(&'static str, f64)> {
         ),
         ("STILL", drift),
         ("UPRIGHT", turn),
-        ("ROOM", room),
+        ("ROOM", room(p)),
         ("WARM", WARM),
         ("EVEN", EVEN),
         ("VARIED", EVEN * EVEN),

@@ -38,6 +38,8 @@ pub struct SolverSpec<'a> {
     pub ground: Ground,
     /// The fluid.
     pub particles: &'a [Particle],
+    /// Whether it stands in its flasks: then what may sleep does from the first frame on.
+    pub at_rest: bool,
     /// Whether the liquid's push on the flasks is summed up each frame.
     pub loads: bool,
     /// Whether tools touch the liquid, and hands are rinsed.

@@ -4,8 +4,8 @@ use super::bubbles::{self, BubbleState, VapourAccount};
 use super::counters::Counters;
 use super::grid::Grid;
 use super::matter::Start;
-use super::sleep::{self, SleepState};
-use super::spec::Particle;
+use super::sleep::SleepState;
+use super::spec::{Particle, SolverSpec};
 use super::spray::{SprayAccount, SprayState, spray_left};
 use super::steam::{SteamPasses, SteamState};
 use super::wall_heat;
@@ -64,13 +64,8 @@ const REMOVED: u32 = u32::MAX;
 
 impl SolverState {
     /// The state before the first frame: a list that is stale for all.
-    pub(super) fn start(
-        particles: &[Particle],
-        grid: &Grid,
-        parameters: &Parameters,
-        flasks: usize,
-        loads: bool,
-    ) -> Self {
+    pub(super) fn start(spec: &SolverSpec<'_>, grid: &Grid) -> Self {
+        let (particles, parameters, flasks) = (spec.particles, &spec.parameters, spec.flasks.len());
         let chemistry = parameters.chemistry.as_ref();
         let ambient = wall_heat::losses(chemistry).map_or(0.0, |losses| losses.ambient);
         let n = particles.len();
@@ -100,7 +95,7 @@ impl SolverState {
             list_counts: vec![0; n],
             list: vec![0; grid.places(n as u32) as usize],
             counters: vec![0; size_of::<Counters>() / 4],
-            sleep: SleepState::start(sleep::is_on(parameters, flasks), loads, n, flasks),
+            sleep: SleepState::start(spec),
         };
         match &parameters.chemistry {
             None => {}

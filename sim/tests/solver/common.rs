@@ -134,6 +134,7 @@ pub struct Setup {
     pub particles: Vec<Particle>,
     pub loads: bool,
     pub tools: bool,
+    pub at_rest: bool,
     pub lanes: Option<u32>,
 }
 
@@ -147,6 +148,7 @@ impl Setup {
             particles,
             loads: false,
             tools: false,
+            at_rest: false,
             lanes: Some(1),
         }
     }
@@ -162,6 +164,7 @@ impl Setup {
             solids: self.solids.as_deref(),
             ground: self.ground,
             particles: &self.particles,
+            at_rest: self.at_rest,
             tools: self.tools,
             loads: self.loads,
             constraint: true,

@@ -1,6 +1,7 @@
 //! Liquid that sleeps: it stays where it is, wakes before anything meets it, and goes on as if it had not slept.
 
 mod awake;
+mod start;
 
 use crate::chemistry::setup::{glass_of, with, with_bubbles};
 use crate::common::*;

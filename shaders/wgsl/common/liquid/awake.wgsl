@@ -1,16 +1,21 @@
 // Which particles sleep (`sim/sleep.wgsl`). They lie behind all others in each array, so a pass over particles ends before them, and the places and
 // lists that they have stay valid.
 //!include common/liquid/particle.wgsl
+//!include common/liquid/sleep_words.wgsl
 
 /// Whether liquid that sleeps is left out.
 override SLEEP: bool = false;
 
-/// Number of particles that are awake; number of those that rebuilds of this frame sort; then, by flask, whether its liquid sleeps.
+/// Number of particles that are awake; number of those that rebuilds of this frame sort; then, by flask, whether its liquid sleeps or settles.
 @group(0) @binding(59) var<storage, read> sleep: array<u32>;
 
-const SLEEP_AWAKE = 0u;
-const SLEEP_SORTED = 1u;
-const SLEEP_FLASKS = 2u;
+/// Whether liquid in a flask settles from the lattice that it was filled in: each frame begins with it at rest.
+fn settles(membership: u32) -> bool {
+    if (SLEEP) {
+        if (membership > NOBODYS && membership != REMOVED) { return sleep[SLEEP_FLASKS + membership - 1u] > SETTLES; }
+    }
+    return false;
+}
 
 /// Number of particles that a pass moves: the first ones.
 fn awake_count() -> u32 {
@@ -24,7 +29,7 @@ fn sleeps(membership: u32) -> bool {
         if (membership == NOBODYS) { return false; }
         // Taken out, a particle needs no pass.
         if (membership == REMOVED) { return true; }
-        return sleep[SLEEP_FLASKS + membership - 1u] != 0u;
+        return sleep[SLEEP_FLASKS + membership - 1u] == ASLEEP;
     }
     return false;
 }

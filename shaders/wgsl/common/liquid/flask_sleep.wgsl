@@ -15,6 +15,10 @@ struct FlaskSleep {
     most_acid: atomic<u32>,
     /// Above 0 where its particles' mean square of the speed is more than that of liquid at rest: sums of `sim/calm.wgsl`.
     unrest: atomic<i32>,
+    /// Height over the flask's origin to which its liquid reached when it was last awake at a frame's start, m.
+    top: f32,
+    /// The same of this frame, bits of an f32.
+    highest: atomic<u32>,
 }
 
 @group(0) @binding(60) var<storage, read_write> flask_sleeps: array<FlaskSleep>;
@@ -26,11 +30,11 @@ override CLEARANCE: f32 = 0.015;
 const LIVELY = 1u;
 const MOVED = 2u;
 
-/// Way from x (stage) to the cylinder about a flask, m; 0 within it.
-fn way_to(k: u32, pose: FlaskPose, x: vec3<f32>) -> f32 {
+/// Way from x (stage) to the cylinder about a flask up to a height, m; 0 within it.
+fn way_to(k: u32, pose: FlaskPose, height: f32, x: vec3<f32>) -> f32 {
     let p = flask_from_stage(pose, x);
     let beside = length(p.xz) - flasks[k].outer;
-    let along = max(p.y - flasks[k].rim, -p.y);
+    let along = max(p.y - height, -p.y);
     return length(max(vec2<f32>(beside, along), vec2<f32>(0.0)));
 }
 

@@ -136,3 +136,37 @@ fn drops_and_unmixed_particles_keep_liquid_awake() {
     let warmest = state.heat.iter().map(|heat| heat[0]).fold(0.0, f32::max);
     assert!(warmest < 21.0, "{warmest} °C would keep it awake too");
 }
+
+/// Water that is held over a glass does not wake its liquid while it is far above that, as near as it may be to the glass; lowered, it does before
+/// it can meet it.
+#[test]
+fn water_that_is_lowered_into_a_glass_wakes_liquid() {
+    const STEP: f32 = 0.003;
+    let gpu = gpu::device();
+    let above = at(0.0, 0.09, 0.0);
+    let mut held = still();
+    held.extend(water(&narrow_glass(), 1, above, 100));
+    let mut setup = glass(held, 1);
+    setup.flasks.push(narrow_glass());
+    let solver = setup.solver(&gpu);
+    fall_asleep(&gpu, &solver, &[Pose::IDENTITY, above], 0);
+    let top = |found: &[Found]| found.iter().map(|it| it.position.y).fold(0.0, f64::max);
+    let liquid = top(&particles(&solver.snapshot().unwrap())[..500]);
+    assert!(liquid < 0.03, "{liquid}");
+    let (mut pose, mut gap) = (above, 1.0);
+    while solver.awake().unwrap() <= 100 {
+        let found = particles(&solver.snapshot().unwrap());
+        let lowest = found[500..].iter().map(|it| it.position.y);
+        gap = lowest.fold(1.0, f64::min) - liquid;
+        let mut to = pose;
+        to.position.y -= STEP;
+        frame(
+            &gpu,
+            &solver,
+            &[Pose::IDENTITY, pose],
+            &[Pose::IDENTITY, to],
+        );
+        pose = to;
+    }
+    assert!(gap > H + f64::from(STEP) && gap < 0.03, "{gap} m");
+}
