@@ -25,25 +25,31 @@ override FRAME_TIME: f32 = 0.0111;
 override SLOW: f32 = 0.03;
 /// Root mean square of the speeds of liquid at rest, over `SLOW`.
 override UNREST: f32 = 0.2;
+/// Speed up to which a particle has settled, m/s: what it gains in a frame from rest, of which free fall would be 0.11. Chosen.
+const SETTLED: f32 = 0.055;
 override WARM: f32 = 5.0;
 override VARIED: f32 = 1e-6;
 
 /// No flask.
 const NONE = 0xffffffffu;
 
-/// Keeps the liquid of those flasks awake but `own` that a particle may reach in two frames. What is in no flask may fall into one, and has to
-/// find it awake; what is in another flask meets liquid alone.
-fn visit(own: u32, x: vec3<f32>, v: vec3<f32>) {
-    let reach = CLEARANCE + 2.0 * FRAME_TIME * length(v);
+/// How far a particle may come in two frames, m.
+fn reach_of(v: vec3<f32>) -> f32 {
+    return CLEARANCE + 2.0 * FRAME_TIME * length(v);
+}
+
+/// Keeps the liquid of those flasks awake but `own` that a particle may reach in two frames. What is in no flask then may fall into one, and has
+/// to find it awake; what is in another flask meets liquid alone.
+fn visit(own: u32, leaves: bool, x: vec3<f32>, v: vec3<f32>) {
     for (var k = 0u; k < FLASKS; k++) {
-        let height = select(flask_sleeps[k].top, flasks[k].rim, own == NONE);
-        if (k != own && way_to(k, poses[step.after + k], height, x) < reach) { keep_awake(k); }
+        let height = select(flask_sleeps[k].top, flasks[k].rim, leaves);
+        if (k != own && way_to(k, poses[step.after + k], height, x) < reach_of(v)) { disturb(k); }
     }
 }
 
-/// Notes how high up in flask k there is liquid. Most is lower than what is noted already.
-fn note_height(k: u32, x: vec3<f32>) {
-    let bits = bitcast<u32>(max(flask_from_stage(poses[step.after + k], x).y, 0.0));
+/// Notes that there is liquid at height y in flask k. Most is lower than what is noted already.
+fn note_height(k: u32, y: f32) {
+    let bits = bitcast<u32>(max(y, 0.0));
     if (bits > atomicLoad(&flask_sleeps[k].highest)) { atomicMax(&flask_sleeps[k].highest, bits); }
 }
 
@@ -69,9 +75,9 @@ fn unrest_of(square: f32) -> i32 {
     return i32(round(16.0 * (min(square / (SLOW * SLOW), 1.0) / (UNREST * UNREST) - 1.0)));
 }
 
-/// Velocity of a particle, m/s; 0 of liquid that settles, as the next frame begins with.
+/// Velocity of a particle, m/s; 0 of liquid that settles, as the next frame begins with, but for the last such frame.
 fn velocity_of(i: u32) -> vec3<f32> {
-    if (settles(tags[i].x)) { return vec3<f32>(0.0); }
+    if (frames_to_settle(tags[i].x) > 1u) { return vec3<f32>(0.0); }
     return velocity[i].xyz;
 }
 
@@ -87,14 +93,16 @@ fn note(i: u32) -> u32 {
     }
     let v = velocity_of(i);
     if (membership == NOBODYS) {
-        visit(NONE, position[i].xyz, v);
+        visit(NONE, true, position[i].xyz, v);
         return NONE;
     }
     let k = membership - 1u;
-    note_height(k, position[i].xyz);
-    let fast = !(dot(v, v) <= SLOW * SLOW);
+    let y = flask_from_stage(poses[step.after + k], position[i].xyz).y;
+    note_height(k, y);
+    let slow = select(SLOW, SETTLED, frames_to_settle(membership) > 0u);
+    let fast = !(dot(v, v) <= slow * slow);
     // Liquids of two flasks meet through a mouth that one flask carries to the other, or through which one flows.
-    if (fast || (atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, position[i].xyz, v); }
+    if (fast || (atomicLoad(&flask_sleeps[k].lively) & MOVED) != 0u) { visit(k, y > flasks[k].rim - reach_of(v), position[i].xyz, v); }
     // Lists that are longer than a place are made anew with every other list. Of those that sleep, one came in after this frame began.
     var lively = fast || list_counts[i] > LIST_CAPACITY || sleeps(membership);
     if (HEAT) {
@@ -120,7 +128,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     }
     workgroupBarrier();
     if (k != NONE) {
-        let v = velocity_of(i);
+        // What settled liquid gained in a frame from rest is judged by the fastest particle alone.
+        let v = select(velocity_of(i), vec3<f32>(0.0), frames_to_settle(tags[i].x) > 0u);
         let unrest = unrest_of(dot(v, v));
         if (k == common_flask) { atomicAdd(&common_unrest, unrest); } else { atomicAdd(&flask_sleeps[k].unrest, unrest); }
     }

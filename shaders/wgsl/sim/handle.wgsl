@@ -85,7 +85,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if (place < 0.0 || place > long || aside >= handle.radius + SPACING) { return; }
     // Liquid that sleeps wakes up where the rod moves in it.
-    if (SLEEP && handle.stirs != 0u && membership != NOBODYS) { keep_awake(membership - 1u); }
+    if (SLEEP && handle.stirs != 0u && membership != NOBODYS) { disturb(membership - 1u); }
     let v = velocity[i];
     let rods = mix(handle.velocity_a, handle.velocity_b, place / long);
     let relative = rods - v.xyz;

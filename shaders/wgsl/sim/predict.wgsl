@@ -1,4 +1,4 @@
-// Line 16 at a frame's start; within a frame the forces end with it.
+// Line 16 at a frame's start; within a frame the forces end with it. Liquid that settles begins each frame at rest.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/turnover_plan.wgsl
@@ -31,6 +31,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
     var v = velocity[i].xyz;
-    if (settles(tags[i].x)) { v = vec3<f32>(0.0); }
+    if (frames_to_settle(tags[i].x) > 0u) { v = vec3<f32>(0.0); }
     predict(i, position[i].xyz, v, volume, tags[i].x, step.before, step.after);
 }

@@ -52,7 +52,7 @@ const STARTS = 4u;
 fn note_motion(k: u32) {
     let drifted = has_moved(flask_sleeps[k].position, flask_sleeps[k].orientation, poses[step.after + k]);
     let before = atomicLoad(&flask_sleeps[k].lively);
-    var bits = before & LIVELY;
+    var bits = before & (LIVELY | DISTURBED);
     if (drifted || moves(k)) {
         bits |= MOVED;
         if ((before & MOVED) == 0u || leaps(k)) { bits |= STARTS; }
@@ -60,11 +60,21 @@ fn note_motion(k: u32) {
     atomicStore(&flask_sleeps[k].lively, bits);
 }
 
-/// Whether a flask that leaps or begins to move is near flask k. The glass of another flask does not act on liquid in a flask, so later only
-/// its liquid matters.
+/// How far the axis of a flask may lean in which liquid settles: 1°. Filled level, its liquid is as high within 0.35 mm in a beaker of 40 mm.
+const UPRIGHT_COSINE = 0.99985;
+
+/// Whether flask k stands upright: the lattice of one that leans is no more level than that.
+fn is_upright(k: u32) -> bool {
+    let pose = poses[step.after + k];
+    return stage_from_flask(pose, vec3<f32>(0.0, 1.0, 0.0)).y - pose.position.y > UPRIGHT_COSINE;
+}
+
+/// Whether liquid of a flask that leaps or begins to move is near that of flask k: the last frame did not tell. Glass of another flask does not
+/// act on it.
 fn is_met(k: u32) -> bool {
     for (var other = 0u; other < FLASKS; other++) {
-        if (other == k || (atomicLoad(&flask_sleeps[other].lively) & STARTS) == 0u) { continue; }
+        let has_liquid = flask_sleeps[other].top > 0.0;
+        if (other == k || !has_liquid || (atomicLoad(&flask_sleeps[other].lively) & STARTS) == 0u) { continue; }
         let half = 0.5 * flask_sleeps[other].top;
         let middle = stage_from_flask(poses[step.after + other], vec3<f32>(0.0, half, 0.0));
         if (way_to(k, poses[k], flask_sleeps[k].top, middle) < length(vec2<f32>(half, flasks[other].outer)) + CLEARANCE) { return true; }
@@ -102,7 +112,8 @@ fn main() {
         let before = sleep[SLEEP_FLASKS + k];
         let sleeps = flask_sleeps[k].calm == CALM_FRAMES;
         changed = changed || sleeps != (before == ASLEEP);
-        let settles = before > SETTLES && !moves(k);
+        let disturbed = (atomicLoad(&flask_sleeps[k].lively) & DISTURBED) != 0u;
+        let settles = before > SETTLES && !disturbed && !moves(k) && is_upright(k);
         sleep[SLEEP_FLASKS + k] = select(select(0u, before - 1u, settles), ASLEEP, sleeps);
     }
     for (var k = 0u; k < FLASKS; k++) { atomicAnd(&flask_sleeps[k].lively, MOVED); }

@@ -18,7 +18,7 @@ pub(super) const HEAD: usize = 2;
 /// Words of a flask in `flask_sleeps`.
 const FLASK_WORDS: usize = size_of::<FlaskSleep>() / 4;
 
-/// What the word of a flask in `sleep` is more than while its liquid settles, by the number of frames left, as in `common/liquid/awake.wgsl`.
+/// What the word of a flask in `sleep` is more than while its liquid settles, by the number of frames left, as in `common/liquid/sleep_words.wgsl`.
 const SETTLES: u32 = 256;
 
 /// Where in `awake_args` the size of a dispatch in workgroups of 64 is, bytes.
@@ -53,7 +53,8 @@ const EVEN: f64 = 1e-3;
 /// The part of a state that tells which liquid sleeps; empty where none may.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SleepState {
-    /// Number of particles that are awake, number of those that the last frame sorted, and whether each flask's liquid sleeps.
+    /// Number of particles that are awake, number of those that the last frame sorted, and a word of each flask: whether its liquid sleeps or
+    /// settles.
     pub(super) sleep: Vec<u32>,
     /// The words of `FlaskSleep` of each flask.
     pub(super) flasks: Vec<[u32; FLASK_WORDS]>,

@@ -38,7 +38,7 @@ pub struct SolverSpec<'a> {
     pub ground: Ground,
     /// The fluid.
     pub particles: &'a [Particle],
-    /// Whether it stands in its flasks: then what may sleep does from the first frame on.
+    /// Whether it stands in its flasks: where it may sleep, it settles first (`sim/sleep.wgsl`).
     pub at_rest: bool,
     /// Whether the liquid's push on the flasks is summed up each frame.
     pub loads: bool,

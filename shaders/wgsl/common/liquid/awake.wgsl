@@ -9,12 +9,12 @@ override SLEEP: bool = false;
 /// Number of particles that are awake; number of those that rebuilds of this frame sort; then, by flask, whether its liquid sleeps or settles.
 @group(0) @binding(59) var<storage, read> sleep: array<u32>;
 
-/// Whether liquid in a flask settles from the lattice that it was filled in: each frame begins with it at rest.
-fn settles(membership: u32) -> bool {
+/// Frames for which liquid in a flask settles from the lattice that it was filled in: each begins with it at rest.
+fn frames_to_settle(membership: u32) -> u32 {
     if (SLEEP) {
-        if (membership > NOBODYS && membership != REMOVED) { return sleep[SLEEP_FLASKS + membership - 1u] > SETTLES; }
+        if (membership > NOBODYS && membership != REMOVED) { return max(sleep[SLEEP_FLASKS + membership - 1u], SETTLES) - SETTLES; }
     }
-    return false;
+    return 0u;
 }
 
 /// Number of particles that a pass moves: the first ones.

@@ -8,7 +8,7 @@ struct FlaskSleep {
     /// Frames since something last moved, came near or was not even, up to `CALM_FRAMES`.
     calm: u32,
     orientation: vec4<f32>,
-    /// `LIVELY` and `MOVED`, and at a frame's start `STARTS`.
+    /// `LIVELY`, `DISTURBED` and `MOVED`, and at a frame's start `STARTS`.
     lively: atomic<u32>,
     /// Least and greatest acid fraction of its particles in the last frame, bits of an f32.
     least_acid: atomic<u32>,
@@ -26,9 +26,11 @@ struct FlaskSleep {
 /// Distance that liquid of elsewhere keeps from a flask whose liquid sleeps, m (`solver/sleep.rs`).
 override CLEARANCE: f32 = 0.015;
 
-/// Bits of `lively`: something of the last frame keeps the liquid awake; the flask moves in this frame, or has drifted.
+/// Bits of `lively`: something of the last frame keeps the liquid awake; the flask moves in this frame, or has drifted; a rod or other liquid came
+/// near.
 const LIVELY = 1u;
 const MOVED = 2u;
+const DISTURBED = 8u;
 
 /// Way from x (stage) to the cylinder about a flask up to a height, m; 0 within it.
 fn way_to(k: u32, pose: FlaskPose, height: f32, x: vec3<f32>) -> f32 {
@@ -40,6 +42,15 @@ fn way_to(k: u32, pose: FlaskPose, height: f32, x: vec3<f32>) -> f32 {
 
 /// Keeps the liquid of a flask awake, or wakes it at the next frame's start.
 fn keep_awake(k: u32) {
+    note_bits(k, LIVELY);
+}
+
+/// The same of what comes near; liquid that settles does so no longer.
+fn disturb(k: u32) {
+    note_bits(k, LIVELY | DISTURBED);
+}
+
+fn note_bits(k: u32, bits: u32) {
     // Most find it done: if each took part, all would wait for one word.
-    if ((atomicLoad(&flask_sleeps[k].lively) & LIVELY) == 0u) { atomicOr(&flask_sleeps[k].lively, LIVELY); }
+    if ((atomicLoad(&flask_sleeps[k].lively) & bits) != bits) { atomicOr(&flask_sleeps[k].lively, bits); }
 }

@@ -137,8 +137,7 @@ fn drops_and_unmixed_particles_keep_liquid_awake() {
     assert!(warmest < 21.0, "{warmest} °C would keep it awake too");
 }
 
-/// Water that is held over a glass does not wake its liquid while it is far above that, as near as it may be to the glass; lowered, it does before
-/// it can meet it.
+/// Water that is held over a glass does not wake its liquid, as near as it may be to the glass. Lowered, it does before it can meet it.
 #[test]
 fn water_that_is_lowered_into_a_glass_wakes_liquid() {
     const STEP: f32 = 0.003;
@@ -154,7 +153,10 @@ fn water_that_is_lowered_into_a_glass_wakes_liquid() {
     let liquid = top(&particles(&solver.snapshot().unwrap())[..500]);
     assert!(liquid < 0.03, "{liquid}");
     let (mut pose, mut gap) = (above, 1.0);
-    while solver.awake().unwrap() <= 100 {
+    for _ in 0..40 {
+        if solver.awake().unwrap() > 100 {
+            break;
+        }
         let found = particles(&solver.snapshot().unwrap());
         let lowest = found[500..].iter().map(|it| it.position.y);
         gap = lowest.fold(1.0, f64::min) - liquid;
@@ -169,4 +171,22 @@ fn water_that_is_lowered_into_a_glass_wakes_liquid() {
         pose = to;
     }
     assert!(gap > H + f64::from(STEP) && gap < 0.03, "{gap} m");
+}
+
+/// What stands at the rim of a glass that moves may run into another within a frame, so that one's liquid is awake before.
+#[test]
+fn water_at_a_rim_wakes_what_it_may_run_into() {
+    let gpu = gpu::device();
+    let full = vitriol_sim::flask::Profile::new(&[[0.0, 0.013], [0.016, 0.013]], 0.002).unwrap();
+    let [held, moved] = [0.0, 0.001].map(|x| [Pose::IDENTITY, at(x, 0.065, 0.0)]);
+    let mut liquid = still();
+    liquid.extend(water(&full, 1, held[1], 300));
+    let mut setup = glass(liquid, 1);
+    setup.flasks.push(full);
+    let solver = setup.solver(&gpu);
+    fall_asleep(&gpu, &solver, &held, 0);
+    frame(&gpu, &solver, &held, &moved);
+    assert_eq!(solver.awake().unwrap(), 300);
+    frames(&gpu, &solver, &moved, 1);
+    assert_eq!(solver.awake().unwrap(), 800);
 }
