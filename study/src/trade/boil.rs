@@ -18,7 +18,7 @@ const LOOKS: f64 = 10.0;
 const BOILS: f64 = 1e-3;
 
 /// Result of one seed.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Boiled {
     /// Highest superheat of any particle, K.
     #[serde(deserialize_with = "number")]
@@ -29,6 +29,9 @@ pub struct Boiled {
     pub thrown: f64,
     /// Mass that left as steam, g.
     pub steam: f64,
+    /// What of it had left by the first look after the end of each second, g: 0.1 s later at most.
+    #[serde(default)]
+    pub steam_by_second: Vec<f64>,
     /// Mean temperature at the end, °C.
     #[serde(deserialize_with = "number")]
     pub temperature: f64,
@@ -150,6 +153,8 @@ pub fn boil(
         if let Some(ledger) = &heat.ledger {
             let start = start.get_or_insert(*ledger);
             boiled.steam = 1e3 * ledger.steam;
+            let whole = ((step + 1) as f64 * dt + 1e-9) as usize;
+            boiled.steam_by_second.resize(whole, boiled.steam);
             boiled.closure = boiled.closure.max(ledger.closure(start).abs());
         }
     }
