@@ -66,16 +66,17 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
         var mirrored = vec3<f32>(0.0);
         var wet = false;
         var through = Through(NO_VESSEL, 1.0);
+        var inside: Inside;
+        inside.vessel = frame.blocker_count;
+        if (GLASS) {
+            let end = select(1e9, near / reversed, reversed > 0.0);
+            inside = inside_of_wall(tiles[place.tile], eye, at, end);
+        }
+        let walled = inside.vessel < frame.blocker_count;
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
             var entry: Entry;
-            if (GLASS) {
-                let end = select(1e9, near / reversed, reversed > 0.0);
-                let inside = inside_of_wall(tiles[place.tile], eye, at, end);
-                if (inside.vessel < frame.blocker_count) {
-                    entry = behind_wall(inside, eye);
-                }
-            }
+            if (walled && inside.goes != PAST_INSIDE) { entry = behind_wall(inside, eye); }
             // Drops before the glass are nearer.
             if (here.w > 0.0 && (entry.depth == 0.0 || here.w < -entry.depth - 2.0 * frame.spacing)) { entry = at_surface(place.pixel, eye, here); }
             let liquid = BEFORE_GLASS * near / abs(entry.depth);
@@ -91,8 +92,18 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 met = room_meets(origin, direction);
             }
         }
+        let empty = walled && !wet && inside.goes != BY_BASE;
+        if (empty) {
+            let passed = out_of_vessel(inside);
+            if (any(passed.direction != vec3<f32>(0.0))) {
+                origin = passed.point;
+                direction = passed.direction;
+                met = room_meets(origin, direction);
+            }
+        }
         let seen = room_light(origin, direction, met, through, 1.0 / frame.views[eye].focal);
-        if (room && !wet) { reversed = near / seen.way; }
+        // A bent ray's way is no view depth.
+        if (room && !wet && !empty) { reversed = near / seen.way; }
         colour = display(kept * seen.light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (wet) {

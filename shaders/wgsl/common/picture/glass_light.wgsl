@@ -6,6 +6,7 @@
 //!include common/picture/printed.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/shard.wgsl
+//!include common/picture/thickness_sums.wgsl
 //!include common/picture/tile_marks.wgsl
 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
@@ -14,8 +15,10 @@ const GLASS_REFLECTANCE = 0.036;
 const EDGE_OPACITY = 0.75;
 /// What it sends to the eye.
 const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
-/// What a rim sends to the eye: light that comes up along the wall. Ours, between what it shows over water and over nothing.
-const RIM = vec3<f32>(0.20, 0.30, 0.34);
+/// What a rim sends to the eye: light that comes up along the wall, and has gone that far (m) through liquid that wets it. By the path tracer's picture
+/// of a beaker of acid.
+const RIM = vec3<f32>(0.36, 0.36, 0.36);
+const RIM_WAY = 0.045;
 /// Least cosine between a wall's normal and the way to the eye that counts.
 const STEEPEST = 0.18;
 /// A wall whose normal's outward part is below this looks into the vessel.
@@ -126,6 +129,16 @@ fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> C
     let reflectance = GLASS_REFLECTANCE + (1.0 - GLASS_REFLECTANCE) * rest_squared * rest_squared * rest;
     // What borosilicate of 2 mm absorbs, 0.05 %, is less than a level.
     return Cover(display(mirrored_light(place, reflect(-to_eye, normal))) * reflectance, 1.0 - reflectance);
+}
+
+/// What the rim of a vessel sends to the eye; of the liquid in it what is seen at its floor's middle counts.
+fn rim_light(index: u32, eye: u32) -> vec3<f32> {
+    let m = frame.vessels[index].vessel_from_stage;
+    let low = vec3<f32>(0.0, frame.vessels[index].inner_floor + frame.spacing, 0.0);
+    let clip = frame.views[eye].clip_from_stage * vec4<f32>((low - m[3].xyz) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz), 1.0);
+    let sums = thickness_at((0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent, eye);
+    let absorbs = mix(frame.water, frame.acid, saturate(sums.y / max(sums.x, 1e-9)));
+    return frame.sky_level * RIM * exp(-RIM_WAY * smoothstep(0.0, 2.0 * frame.spacing, sums.x) * absorbs);
 }
 
 /// View depth of the middle of the nearest of the vessels in `bits`.
@@ -250,7 +263,7 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> GlassSeen {
                 layer = over(Cover(print.colour, print.open), layer);
             }
             if (profile.y > 0.9 && p.y > frame.vessels[index].rim - 0.1 * frame.vessels[index].wall) {
-                layer = over(Cover(EDGE_OPACITY * display(frame.sky_level * RIM), 1.0 - EDGE_OPACITY), layer);
+                layer = over(Cover(EDGE_OPACITY * display(rim_light(index, eye)), 1.0 - EDGE_OPACITY), layer);
             }
             if (within < frame.vessels[index].wall) {
                 layer = over(Cover(EDGE_OPACITY * display(frame.sky_level * BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);

@@ -111,12 +111,14 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     let m = frame.vessels[inside.vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     entry.p = (m * vec4<f32>(inside.point, 1.0)).xyz;
-    let inwards = inward(inside.vessel, entry.p);
+    let inwards = select(inward(inside.vessel, entry.p), vec3<f32>(0.0, 1.0, 0.0), inside.goes == BY_BASE);
     // Down to the floor there is liquid where it is a spacing higher; nearer, particles are round.
     let lift = vec3<f32>(0.0, max(frame.spacing - entry.p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
     let lifted = pixel_of(inside.point + stage_from_vessel * lift, eye);
     let here = seen_at(vec2<i32>(floor(lifted.xy)), eye);
-    if (here.w <= 0.0 || abs(here.w - lifted.z) > frame.spacing) { return entry; }
+    // Over the base it is hidden by what the same vessel has in front of it.
+    let hidden_by = select(frame.spacing, 2.0 * frame.vessels[inside.vessel].outer, inside.goes == BY_BASE);
+    if (here.w <= 0.0 || here.w < lifted.z - hidden_by || here.w > lifted.z + frame.spacing) { return entry; }
     // How much there is is asked where particles are whole, too.
     let off = lift + OFF_GLASS * frame.spacing * inwards;
     let whole = inside.point + stage_from_vessel * off;
@@ -132,8 +134,13 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     entry.straight = length(sight) / seen.z * thickness.x;
     entry.filled = filled_along(inside.vessel, entry.p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, entry.straight);
     entry.mixing = striae_at(seen.xy, eye, thickness, seen.z, entry.straight);
-    entry.depth = -pixel_of(inside.point, eye).z;
+    entry.depth = -select(pixel_of(inside.point, eye).z, inside.depth, inside.goes == BY_BASE);
     return entry;
+}
+
+/// The acid's share of sums of thickness, `otherwise` where they are too thin to tell.
+fn share_of_acid(sums: vec2<f32>, otherwise: f32) -> f32 {
+    return select(otherwise, saturate(sums.y / max(sums.x, 1e-9)), sums.x > frame.spacing);
 }
 
 /// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
@@ -155,10 +162,11 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     let aside = -0.5 * entry.mixing.way * turn;
     let begun = p + (frame.vessels[vessel].vessel_from_stage * vec4<f32>(aside, 0.0)).xyz;
     let way = way_through(vessel, entry.point + aside, begun, normalize(entry.within + turn), index, level);
-    // The bent ray goes elsewhere: half of it is as where it first turns.
-    let turned = pixel_of(way.turned, eye);
-    let there = thickness_at(turned.xy, eye);
-    let mixed = select(acid, 0.5 * (acid + saturate(there.y / max(there.x, 1e-9))), there.x > frame.spacing);
+    // The bent ray goes elsewhere: to where it first turns half of it is as there, and from there on it is as where it comes out.
+    let there = thickness_at(pixel_of(way.turned, eye).xy, eye);
+    let deep = share_of_acid(there, acid);
+    let mixed = 0.5 * (acid + deep);
+    let deepest = max(deep, share_of_acid(thickness_at(pixel_of(way.exit, eye).xy, eye), deep));
     // What the bench under it sends back has come down through the liquid before. The vessel's y is up, or is not.
     let upright = saturate(frame.vessels[vessel].vessel_from_stage[1].y);
     let depth = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
@@ -172,7 +180,8 @@ fn followed(entry: Entry, eye: u32) -> Wet {
         let middle = way.turned + vec3<f32>(-q.x, lift, -q.z) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz);
         later = min(later, there.x + 2.0 * thickness_at(pixel_of(middle, eye).xy, eye).x);
     }
-    let kept = exp(-(filled * (way.first + depth) + later) * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
+    let first = filled * way.first * mix(frame.water, frame.acid, mixed);
+    let kept = exp(-frame.metres_per_unit * (first + (filled * depth + later) * mix(frame.water, frame.acid, deepest)));
     if (way.lost) {
         let all_about = ambient_light(0.0) + 0.5 * key_light(way.exit * frame.metres_per_unit).light;
         return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, Through(NO_VESSEL, 1.0));

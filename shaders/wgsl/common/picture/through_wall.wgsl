@@ -1,5 +1,5 @@
-//! What an eye sees of the liquid behind a vessel's wall: the ray is bent at the wall's outer face and at its inner one, so liquid is seen up to
-//! the glass's own outline, where n · r of it is more than that of the glass.
+//! What an eye sees behind a vessel's wall: the ray is bent at the wall's outer face and at its inner one, so liquid is seen up to
+//! the glass's own outline, where n · r of it is more than that of the glass; through an empty vessel it is bent at the far wall again.
 
 //!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
@@ -8,14 +8,24 @@
 /// Refractive index of borosilicate glass.
 const GLASS_INDEX = 1.47;
 
-/// Where a ray comes out of a vessel's wall, into its inside.
+/// Where a ray goes that has come into a vessel's glass.
+const TO_INSIDE = 0u;
+/// The same by way of the base, whose underside mirrors it.
+const BY_BASE = 1u;
+/// Along the wall, past the inside.
+const PAST_INSIDE = 2u;
+
+/// A ray in a vessel's glass.
 struct Inside {
     /// The vessel, or as many as there are vessels.
     vessel: u32,
-    /// In the stage.
+    /// In the stage: where it leaves the glass; on the outer face of what goes past the inside.
     point: vec3<f32>,
     /// Along which it goes in the glass; of length 1.
     direction: vec3<f32>,
+    goes: u32,
+    /// View depth where it came into the glass.
+    depth: f32,
 }
 
 /// The nearer way to a cylinder about y of that radius; negative where it is missed or behind.
@@ -35,10 +45,23 @@ fn out_of_cylinder(p: vec3<f32>, direction: vec3<f32>, radius: f32) -> f32 {
     return max((sqrt(max(b * b - a * c, 0.0)) - b) / a, 0.0);
 }
 
+/// Outer radius of a vessel at a height of its frame: the edge of its base is a quarter of a circle.
+fn outer_radius(index: u32, y: f32) -> f32 {
+    let wall = frame.vessels[index].wall;
+    let below = clamp(frame.vessels[index].inner_floor - y, 0.0, wall);
+    return vessel_radius(index, y) + sqrt(wall * wall - below * below);
+}
+
+/// The outer surface's normal at p (vessel's frame), away from the glass.
+fn outward(index: u32, p: vec3<f32>) -> vec3<f32> {
+    let below = clamp((frame.vessels[index].inner_floor - p.y) / frame.vessels[index].wall, 0.0, 1.0);
+    return -sqrt(1.0 - below * below) * inward(index, p) - vec3<f32>(0.0, below, 0.0);
+}
+
 /// Through the first wall of a vessel in `bits` that the ray through the middle of a pixel meets from outside, nearer than view depth `end`.
 fn inside_of_wall(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Inside {
     let seen = seen_along(eye, place);
-    var found = Inside(frame.blocker_count, vec3<f32>(0.0), normalize(seen));
+    var found = Inside(frame.blocker_count, vec3<f32>(0.0), normalize(seen), TO_INSIDE, 0.0);
     var nearest = end;
     for (var rest = bits & MARK_VESSELS; rest != 0u; rest &= rest - 1u) {
         let index = firstTrailingBit(rest);
@@ -51,19 +74,66 @@ fn inside_of_wall(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Inside {
         // As in `to_glass`: the cylinder of the height where the last one was met.
         var way = to_cylinder(p, direction, frame.vessels[index].outer);
         for (var n = 0; n < 2 && way > 0.0; n++) {
-            way = to_cylinder(p, direction, vessel_radius(index, p.y + way * direction.y) + wall);
+            way = to_cylinder(p, direction, outer_radius(index, p.y + way * direction.y));
         }
         let met = p + way * direction;
         // A steep cone may need more steps than that: what it shows is drawn as without a lens.
-        if (abs(length(met.xz) - vessel_radius(index, met.y) - wall) > 0.25 * wall) { continue; }
+        if (abs(length(met.xz) - outer_radius(index, met.y)) > 0.25 * wall) { continue; }
         if (way <= frame.views[eye].near || way >= nearest || met.y < 0.0 || met.y > frame.vessels[index].rim) { continue; }
-        let within = refract(normalize(direction), -inward(index, met), 1.0 / GLASS_INDEX);
+        var within = refract(normalize(direction), outward(index, met), 1.0 / GLASS_INDEX);
         let on = to_cylinder(met, within, vessel_radius(index, met.y));
-        let inner = met + on * within;
-        if (on <= 0.0 || on > 8.0 * wall || inner.y < frame.vessels[index].inner_floor) { continue; }
+        var inner = met + on * within;
+        let floor = frame.vessels[index].inner_floor;
+        var goes = TO_INSIDE;
+        if (min(met.y, inner.y) < floor) {
+            // Under the base is air, which mirrors what comes so flat.
+            if (within.y >= 0.0 || within.y * within.y > 1.0 - 1.0 / (GLASS_INDEX * GLASS_INDEX)) { continue; }
+            within.y = -within.y;
+            inner = vec3<f32>(met.x, floor, met.z) + (met.y + floor) / within.y * vec3<f32>(within.x, 0.0, within.z);
+            if (length(inner.xz) > vessel_radius(index, floor)) { continue; }
+            goes = BY_BASE;
+        } else if (on <= 0.0) {
+            inner = met;
+            goes = PAST_INSIDE;
+        } else if (on > 8.0 * wall) {
+            continue;
+        }
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
         nearest = way;
-        found = Inside(index, stage_from_vessel * (inner - m[3].xyz), stage_from_vessel * within);
+        found = Inside(index, stage_from_vessel * (inner - m[3].xyz), stage_from_vessel * within, goes, way);
     }
     return found;
+}
+
+/// A ray that has left a vessel.
+struct Passed {
+    /// In the stage.
+    point: vec3<f32>,
+    /// Of length 1; zero where glass mirrors all.
+    direction: vec3<f32>,
+}
+
+/// What a ray in the glass of a vessel without liquid there comes out as, on the far side. A wall is no pane: its faces' normals differ where a ray goes
+/// along it, so what is behind is seen moved, and near the outline mirrored.
+fn out_of_vessel(inside: Inside) -> Passed {
+    let index = inside.vessel;
+    let m = frame.vessels[index].vessel_from_stage;
+    let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
+    var at = (m * vec4<f32>(inside.point, 1.0)).xyz;
+    var in_glass = (m * vec4<f32>(inside.direction, 0.0)).xyz;
+    if (inside.goes == TO_INSIDE) {
+        let inner = inward(index, at);
+        let through = refract(in_glass, -inner, GLASS_INDEX);
+        // The inner face mirrors what comes so flat.
+        in_glass = reflect(in_glass, inner);
+        if (any(through != vec3<f32>(0.0))) {
+            let reach = to_glass(index, at, through);
+            at += reach.x * through;
+            // Through base or mouth it goes on as it is.
+            if (reach.y < reach.x || at.y > frame.vessels[index].rim) { return Passed(inside.point, stage_from_vessel * through); }
+            in_glass = refract(through, inward(index, at), 1.0 / GLASS_INDEX);
+        }
+    }
+    let outer = at + out_of_cylinder(at, in_glass, vessel_radius(index, at.y) + frame.vessels[index].wall) * in_glass;
+    return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * refract(in_glass, inward(index, outer), GLASS_INDEX));
 }
