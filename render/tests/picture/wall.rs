@@ -4,8 +4,8 @@
 
 use crate::liquid::{Liquid, draw, frame, rig, upright_cylinder};
 use crate::rig::{cylinder, displayed, linear, ray};
-use glam::{Affine3A, Vec3};
-use vitriol_render::{Fov, FrameDesc, SurfaceFilter, View};
+use glam::{Affine3A, Quat, Vec3};
+use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Radius of the liquid, and of the glass, m.
@@ -101,4 +101,146 @@ fn a_stream_along_a_wall_is_as_light_as_it_is_thin() {
     eprintln!("{dark} of {seen} pixels are darker");
     assert!(seen > 1000, "{seen}");
     assert!(100 * dark < seen, "{dark} of {seen}");
+}
+
+/// An empty cylinder, level and across the line of sight: the bench's far edge is seen through it moved towards its axis, by Bouguer's law. At
+/// b from the axis a ray is turned away from that by 2 (asin(b/r) − asin(b/nr) − asin(b/R) + asin(b/nR)), and leaves at b from it.
+#[test]
+fn an_empty_cylinder_moves_what_is_behind_it() {
+    const GLASS: f64 = 1.47;
+    const HIGH: f64 = 0.034;
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
+        furnished: false,
+        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
+    });
+    let eye = FOOT + Vec3::new(0.0, HIGH as f32, 0.3);
+    let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.1, 4.0 / 3.0));
+    let middle = FOOT + Vec3::Y * HIGH as f32;
+    let level = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
+    let lies = Affine3A::from_rotation_translation(level, middle - Vec3::X * 0.025);
+    // The bench ends 0.38 m behind the axis.
+    let missed = |b: f64, turned: f64| {
+        let fall = (b / 0.3).asin() + turned;
+        let along = (0.38 + b * fall.sin()) / fall.cos();
+        HIGH - b * fall.cos() - along * fall.sin()
+    };
+    let turned = |b: f64| {
+        let by = |radius: f64| (b / radius).asin() - (b / (GLASS * radius)).asin();
+        2.0 * (by(RADIUS) - by(OUTER))
+    };
+    let row = |y: u32| {
+        let along = ray(&view, EXTENT, EXTENT[0] / 2, y);
+        0.3 * -along.y / along.y.hypot(along.z)
+    };
+    let edge = |vessel: Affine3A| {
+        let picture = rig.draw(&FrameDesc {
+            vessels: &[vessel],
+            ..FrameDesc::empty(&[view])
+        });
+        let red = |y: u32| linear(picture.colour[0][4 * (y * EXTENT[0] + EXTENT[0] / 2) as usize]);
+        let step = |y: u32| (red(y + 1) - red(y)).abs();
+        let inside = (EXTENT[1] / 2..EXTENT[1] - 1).filter(|&y| row(y) < 0.8 * RADIUS);
+        let y = inside.max_by(|&a, &b| step(a).total_cmp(&step(b))).unwrap();
+        0.5 * (row(y) + row(y + 1))
+    };
+    let expected = |turned: &dyn Fn(f64) -> f64| {
+        let places = (0..16_000).map(|n| 1e-6 * f64::from(n));
+        let found = places.min_by(|&a, &b| {
+            let [a, b] = [a, b].map(|b| missed(b, turned(b)).abs());
+            a.total_cmp(&b)
+        });
+        found.unwrap()
+    };
+    let (bent, straight) = (expected(&turned), expected(&|_| 0.0));
+    let found = edge(lies);
+    eprintln!("{found} m from the axis, {bent} expected, {straight} without it");
+    // A pixel is 0.25 mm wide there.
+    assert!((found - bent).abs() < 2.5e-4, "{found} {bent}");
+    assert!(straight - bent > 5e-3, "{straight} {bent}");
+}
+
+/// Seen from aside and above, the base's underside mirrors acid over it: what it shows has come through 20 mm of that and more. Water, whose index
+/// is less, would be hidden by what glass mirrors at so flat an angle.
+#[test]
+fn a_base_shows_the_liquid_over_it() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
+        furnished: false,
+        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
+    });
+    let places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 9);
+    let target = FOOT + Vec3::new(0.0, 0.0018, OUTER as f32);
+    let view = View::look_at(
+        target + Vec3::new(0.0, 0.16, 0.28),
+        target,
+        Fov::symmetric(0.1, 4.0 / 3.0),
+    );
+    let vessels = [Affine3A::from_translation(FOOT)];
+    let empty = rig.draw(&FrameDesc {
+        vessels: &vessels,
+        ..FrameDesc::empty(&[view])
+    });
+    let mut liquid = Liquid::new(&rig, &places, |_| 1.0);
+    liquid.table = None;
+    let (picture, _) = draw(&rig, &frame(&[view], &vessels, &liquid));
+    let pixel = 4 * (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
+    let blueness = |colour: &[u8]| linear(colour[pixel + 2]) / linear(colour[pixel]);
+    let kept = blueness(&picture.colour[0]) / blueness(&empty.colour[0]);
+    let least = (TINTS[1][1] / TINTS[1][0]).powf(0.02 / 0.06);
+    eprintln!("{kept} of blue over red, {least} at most");
+    assert!(kept < least, "{kept} {least}");
+}
+
+/// Blue over red of a liquid with that acid by height (m over the floor), over that of an empty vessel, about where `target` is seen from aside and
+/// above: the mean of 5 × 5 pixels.
+fn yellowness(target: Vec3, acid: impl Fn(f32) -> f32) -> f64 {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
+        furnished: false,
+        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
+    });
+    let places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 12);
+    let eye = target + Vec3::new(0.0, 0.2, 0.28);
+    let view = View::look_at(eye, target, Fov::symmetric(0.15, 4.0 / 3.0));
+    let vessels = [Affine3A::from_translation(FOOT)];
+    let empty = rig.draw(&FrameDesc {
+        vessels: &vessels,
+        ..FrameDesc::empty(&[view])
+    });
+    let mut liquid = Liquid::new(&rig, &places, |at| acid(at.y - FOOT.y - 0.002));
+    liquid.table = None;
+    let (picture, _) = draw(&rig, &frame(&[view], &vessels, &liquid));
+    let light = |colour: &[u8], channel: usize| {
+        let pixel = |n: u32| (EXTENT[1] / 2 + n / 5 - 2) * EXTENT[0] + EXTENT[0] / 2 + n % 5 - 2;
+        (0..25)
+            .map(|n| linear(colour[4 * pixel(n) as usize + channel]))
+            .sum::<f64>()
+    };
+    let blueness = |colour: &[u8]| light(colour, 2) / light(colour, 0);
+    blueness(&picture.colour[0]) / blueness(&empty.colour[0])
+}
+
+/// 22 mm of acid under 7.5 mm of water, seen close to the far wall: a straight ray meets water alone, the bent one 25 mm of acid and more.
+#[test]
+fn a_ray_that_is_bent_into_acid_is_as_yellow_as_that() {
+    let target = FOOT + Vec3::new(0.0, 0.002 + 0.030, -0.013);
+    let found = yellowness(target, |height| f32::from(u8::from(height < 0.0225)));
+    let water = yellowness(target, |_| 0.0);
+    let most = (TINTS[1][1] / TINTS[1][0]).powf(0.025 / 0.06);
+    eprintln!("{found}, of water {water}; {most} at most");
+    assert!(water > 1.0 && found < most, "{found} {water} {most}");
+}
+
+/// A rim shows the light that comes up in its wall, with the colour of what wets that: 45 mm of water keep 1.87 of blue over red, of acid 0.33, and a
+/// quarter of what is seen is behind the rim.
+#[test]
+fn a_rim_has_the_colour_of_the_liquid() {
+    let target = FOOT + Vec3::new(0.0, 0.05, 0.5 * (RADIUS + OUTER) as f32);
+    let [water, acid] = [0.0, 1.0].map(|acid| yellowness(target, |_| acid));
+    eprintln!("{water} {acid}");
+    assert!(water > 1.4 && acid < 0.6, "{water} {acid}");
 }

@@ -76,7 +76,7 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
             var entry: Entry;
-            if (walled && inside.goes != PAST_INSIDE) { entry = behind_wall(inside, eye); }
+            if (walled) { entry = behind_wall(inside, eye); }
             // Drops before the glass are nearer.
             if (here.w > 0.0 && (entry.depth == 0.0 || here.w < -entry.depth - 2.0 * frame.spacing)) { entry = at_surface(place.pixel, eye, here); }
             let liquid = BEFORE_GLASS * near / abs(entry.depth);
@@ -92,7 +92,7 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 met = room_meets(origin, direction);
             }
         }
-        let empty = walled && !wet && inside.goes != BY_BASE;
+        let empty = walled && !wet && !inside.base;
         if (empty) {
             let passed = out_of_vessel(inside);
             if (any(passed.direction != vec3<f32>(0.0))) {

@@ -111,13 +111,13 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     let m = frame.vessels[inside.vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     entry.p = (m * vec4<f32>(inside.point, 1.0)).xyz;
-    let inwards = select(inward(inside.vessel, entry.p), vec3<f32>(0.0, 1.0, 0.0), inside.goes == BY_BASE);
+    let inwards = select(inward(inside.vessel, entry.p), vec3<f32>(0.0, 1.0, 0.0), inside.base);
     // Down to the floor there is liquid where it is a spacing higher; nearer, particles are round.
     let lift = vec3<f32>(0.0, max(frame.spacing - entry.p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
     let lifted = pixel_of(inside.point + stage_from_vessel * lift, eye);
     let here = seen_at(vec2<i32>(floor(lifted.xy)), eye);
     // Over the base it is hidden by what the same vessel has in front of it.
-    let hidden_by = select(frame.spacing, 2.0 * frame.vessels[inside.vessel].outer, inside.goes == BY_BASE);
+    let hidden_by = select(frame.spacing, 2.0 * frame.vessels[inside.vessel].outer, inside.base);
     if (here.w <= 0.0 || here.w < lifted.z - hidden_by || here.w > lifted.z + frame.spacing) { return entry; }
     // How much there is is asked where particles are whole, too.
     let off = lift + OFF_GLASS * frame.spacing * inwards;
@@ -134,7 +134,7 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     entry.straight = length(sight) / seen.z * thickness.x;
     entry.filled = filled_along(inside.vessel, entry.p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, entry.straight);
     entry.mixing = striae_at(seen.xy, eye, thickness, seen.z, entry.straight);
-    entry.depth = -select(pixel_of(inside.point, eye).z, inside.depth, inside.goes == BY_BASE);
+    entry.depth = -select(pixel_of(inside.point, eye).z, inside.depth, inside.base);
     return entry;
 }
 

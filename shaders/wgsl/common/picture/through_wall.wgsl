@@ -8,22 +8,16 @@
 /// Refractive index of borosilicate glass.
 const GLASS_INDEX = 1.47;
 
-/// Where a ray goes that has come into a vessel's glass.
-const TO_INSIDE = 0u;
-/// The same by way of the base, whose underside mirrors it.
-const BY_BASE = 1u;
-/// Along the wall, past the inside.
-const PAST_INSIDE = 2u;
-
 /// A ray in a vessel's glass.
 struct Inside {
     /// The vessel, or as many as there are vessels.
     vessel: u32,
-    /// In the stage: where it leaves the glass; on the outer face of what goes past the inside.
+    /// In the stage: where it leaves the glass.
     point: vec3<f32>,
     /// Along which it goes in the glass; of length 1.
     direction: vec3<f32>,
-    goes: u32,
+    /// Whether it comes up through the base, whose underside has mirrored it.
+    base: bool,
     /// View depth where it came into the glass.
     depth: f32,
 }
@@ -61,7 +55,7 @@ fn outward(index: u32, p: vec3<f32>) -> vec3<f32> {
 /// Through the first wall of a vessel in `bits` that the ray through the middle of a pixel meets from outside, nearer than view depth `end`.
 fn inside_of_wall(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Inside {
     let seen = seen_along(eye, place);
-    var found = Inside(frame.blocker_count, vec3<f32>(0.0), normalize(seen), TO_INSIDE, 0.0);
+    var found = Inside(frame.blocker_count, vec3<f32>(0.0), normalize(seen), false, 0.0);
     var nearest = end;
     for (var rest = bits & MARK_VESSELS; rest != 0u; rest &= rest - 1u) {
         let index = firstTrailingBit(rest);
@@ -84,23 +78,19 @@ fn inside_of_wall(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Inside {
         let on = to_cylinder(met, within, vessel_radius(index, met.y));
         var inner = met + on * within;
         let floor = frame.vessels[index].inner_floor;
-        var goes = TO_INSIDE;
-        if (min(met.y, inner.y) < floor) {
-            // Under the base is air, which mirrors what comes so flat.
+        let base = min(met.y, inner.y) < floor;
+        if (base) {
+            // Under it is air, which mirrors what comes so flat.
             if (within.y >= 0.0 || within.y * within.y > 1.0 - 1.0 / (GLASS_INDEX * GLASS_INDEX)) { continue; }
             within.y = -within.y;
             inner = vec3<f32>(met.x, floor, met.z) + (met.y + floor) / within.y * vec3<f32>(within.x, 0.0, within.z);
             if (length(inner.xz) > vessel_radius(index, floor)) { continue; }
-            goes = BY_BASE;
-        } else if (on <= 0.0) {
-            inner = met;
-            goes = PAST_INSIDE;
-        } else if (on > 8.0 * wall) {
+        } else if (on <= 0.0 || on > 8.0 * wall) {
             continue;
         }
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
         nearest = way;
-        found = Inside(index, stage_from_vessel * (inner - m[3].xyz), stage_from_vessel * within, goes, way);
+        found = Inside(index, stage_from_vessel * (inner - m[3].xyz), stage_from_vessel * within, base, way);
     }
     return found;
 }
@@ -121,18 +111,16 @@ fn out_of_vessel(inside: Inside) -> Passed {
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     var at = (m * vec4<f32>(inside.point, 1.0)).xyz;
     var in_glass = (m * vec4<f32>(inside.direction, 0.0)).xyz;
-    if (inside.goes == TO_INSIDE) {
-        let inner = inward(index, at);
-        let through = refract(in_glass, -inner, GLASS_INDEX);
-        // The inner face mirrors what comes so flat.
-        in_glass = reflect(in_glass, inner);
-        if (any(through != vec3<f32>(0.0))) {
-            let reach = to_glass(index, at, through);
-            at += reach.x * through;
-            // Through base or mouth it goes on as it is.
-            if (reach.y < reach.x || at.y > frame.vessels[index].rim) { return Passed(inside.point, stage_from_vessel * through); }
-            in_glass = refract(through, inward(index, at), 1.0 / GLASS_INDEX);
-        }
+    let inner = inward(index, at);
+    let through = refract(in_glass, -inner, GLASS_INDEX);
+    // The inner face mirrors what comes so flat.
+    in_glass = reflect(in_glass, inner);
+    if (any(through != vec3<f32>(0.0))) {
+        let reach = to_glass(index, at, through);
+        at += reach.x * through;
+        // Through base or mouth it goes on as it is.
+        if (reach.y < reach.x || at.y > frame.vessels[index].rim) { return Passed(inside.point, stage_from_vessel * through); }
+        in_glass = refract(through, inward(index, at), 1.0 / GLASS_INDEX);
     }
     let outer = at + out_of_cylinder(at, in_glass, vessel_radius(index, at.y) + frame.vessels[index].wall) * in_glass;
     return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * refract(in_glass, inward(index, outer), GLASS_INDEX));
