@@ -93,15 +93,17 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
             }
         }
         let empty = walled && !wet && !inside.base;
+        var fine = 1.0 / frame.views[eye].focal;
         if (empty) {
             let passed = out_of_vessel(inside);
             if (any(passed.direction != vec3<f32>(0.0))) {
                 origin = passed.point;
                 direction = passed.direction;
+                fine *= passed.spread;
                 met = room_meets(origin, direction);
             }
         }
-        let seen = room_light(origin, direction, met, through, 1.0 / frame.views[eye].focal);
+        let seen = room_light(origin, direction, met, through, fine);
         // A bent ray's way is no view depth.
         if (room && !wet && !empty) { reversed = near / seen.way; }
         colour = display(kept * seen.light + mirrored);

@@ -101,6 +101,14 @@ struct Passed {
     point: vec3<f32>,
     /// Of length 1; zero where glass mirrors all.
     direction: vec3<f32>,
+    /// How much further apart than without glass the rays of two pixels go.
+    spread: f32,
+}
+
+/// By how much a level ray's way turns with its distance b from the axis at a face of radius `radius`: d asin(b/radius)/db − d asin(b/(n radius))/db, by
+/// its cosines in air and in glass.
+fn turns_with(radius: f32, in_air: f32, in_glass: f32) -> f32 {
+    return (1.0 / max(in_air, 0.05) - 1.0 / (GLASS_INDEX * max(in_glass, 0.05))) / radius;
 }
 
 /// What a ray in the glass of a vessel without liquid there comes out as, on the far side. A wall is no pane: its faces' normals differ where a ray goes
@@ -113,15 +121,23 @@ fn out_of_vessel(inside: Inside) -> Passed {
     var in_glass = (m * vec4<f32>(inside.direction, 0.0)).xyz;
     let inner = inward(index, at);
     let through = refract(in_glass, -inner, GLASS_INDEX);
+    // Bouguer's law: n r sin of the angle is the same at both faces.
+    let radius = vessel_radius(index, at.y);
+    let outside = radius + frame.vessels[index].wall;
+    let facing = abs(dot(in_glass, inner));
+    let square = (1.0 - facing * facing) * radius * radius / (outside * outside);
+    let outer_turns = turns_with(outside, sqrt(max(1.0 - GLASS_INDEX * GLASS_INDEX * square, 0.0)), sqrt(1.0 - square));
     // The inner face mirrors what comes so flat.
     in_glass = reflect(in_glass, inner);
+    var turns = outer_turns + 1.0 / (GLASS_INDEX * max(facing, 0.05) * radius);
     if (any(through != vec3<f32>(0.0))) {
         let reach = to_glass(index, at, through);
         at += reach.x * through;
         // Through base or mouth it goes on as it is.
-        if (reach.y < reach.x || at.y > frame.vessels[index].rim) { return Passed(inside.point, stage_from_vessel * through); }
+        if (reach.y < reach.x || at.y > frame.vessels[index].rim) { return Passed(inside.point, stage_from_vessel * through, 1.0); }
         in_glass = refract(through, inward(index, at), 1.0 / GLASS_INDEX);
+        turns = turns_with(radius, dot(through, inner), facing) - outer_turns;
     }
     let outer = at + out_of_cylinder(at, in_glass, vessel_radius(index, at.y) + frame.vessels[index].wall) * in_glass;
-    return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * refract(in_glass, inward(index, outer), GLASS_INDEX));
+    return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * refract(in_glass, inward(index, outer), GLASS_INDEX), 1.0 + 2.0 * inside.depth * abs(turns));
 }
