@@ -235,20 +235,25 @@ fn a_replay_watches_the_shaders_that_it_is_told() {
     let shaders = folder.path().join("wgsl/render");
     fs::create_dir_all(&shaders).unwrap();
     fs::write(shaders.join("picture.wgsl"), "fn nonsense(").unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-        .args(["replay", "two-flasks", "--seconds", "0.001", "--out", "new"])
-        .args(["--preset", "fast", "--camera", "head"])
-        .current_dir(folder.path())
-        .env("VITRIOL_SHADERS", folder.path().join("wgsl"))
-        .output()
-        .unwrap();
-    let message = text(&output.stderr);
-    assert!(output.status.success(), "{message}");
-    for part in [
-        "the built-in render/picture.wgsl is used",
-        "picture.wgsl:1:",
+    for line in [
+        "replay two-flasks --camera head --out new",
+        "replay two-flasks --compare beaker,two-flasks --out both",
     ] {
-        assert!(message.contains(part), "{message}");
+        let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+            .args(line.split(' '))
+            .args(["--seconds", "0.001", "--preset", "fast"])
+            .current_dir(folder.path())
+            .env("VITRIOL_SHADERS", folder.path().join("wgsl"))
+            .output()
+            .unwrap();
+        let message = text(&output.stderr);
+        assert!(output.status.success(), "{message}");
+        for part in [
+            "the built-in render/picture.wgsl is used",
+            "picture.wgsl:1:",
+        ] {
+            assert!(message.contains(part), "{line}: {message}");
+        }
     }
     let report = fs::read_to_string(folder.path().join("new/report.json")).unwrap();
     assert!(report.contains("--camera head"), "{report}");

@@ -2,6 +2,7 @@
 //! happens.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_lesson::procedure::Verdict;
@@ -11,6 +12,7 @@ use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Setup, Subtitles, emit, escaped, in_a_line, output,
 };
+use vitriol_shaders::Library;
 use vitriol_xr::track::{TrackMetadata, TrackSource, builtin, load};
 
 use super::subtitles::{JudgedTrack, SubtitleWords, cues};
@@ -75,6 +77,7 @@ pub fn make(
         // A lesson is seen as the student sees it, in full.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         language: args.language,
+        shaders: Arc::new(Library::watching()),
         ..plan.setup(args.device.as_deref())
     })?;
     let text = plan.scenes.text(&plan.name);

@@ -1,5 +1,7 @@
 //! One of two experiments that keep up with each other.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use vitriol_lesson::{Attempt, Language, Texts, layered};
 use vitriol_run::captions::{self, Caption};
@@ -7,6 +9,7 @@ use vitriol_run::{
     Blame, Colour, DeviceStatement, Experiment, FILM_FPS, Failure, Look, Sample, Setup,
     SimulatedTime, Span, Stepping, boiling, sample_is_due,
 };
+use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
@@ -54,6 +57,7 @@ impl Side {
             room: args.drawn.room,
             directed: true,
             look: (plan.scene.scale.length_scale == 1.0).then_some(BENCH),
+            shaders: Arc::new(Library::watching()),
             ..plan.setup(args.device.as_deref())
         })?;
         let texts = Texts::of(Language::En).other()?;
