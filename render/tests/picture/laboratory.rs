@@ -210,7 +210,8 @@ fn numbers_and_labels_are_printed_at_their_heights() {
 
     let (view, without) = draw(0.065, &[], None);
     let (_, with) = draw(0.065, &[], Some(&label));
-    // Of its 125 columns: where the glass bends an edge of the room behind it, smoothing draws that out over the label's own by three pixels.
+    // A row counts where 8 of the label's 125 columns changed: where glass bends an edge of the room behind the label's, smoothing draws three
+    // columns out by three rows.
     let [_, down] = changed(&with, &without, 8);
     let at = |height: f32| {
         let out = Vec3::new(radius * -0.7_f32.sin(), height, radius * 0.7_f32.cos());

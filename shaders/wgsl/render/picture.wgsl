@@ -99,15 +99,16 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
             if (any(passed.direction != vec3<f32>(0.0))) {
                 origin = passed.point;
                 direction = passed.direction;
-                fine *= passed.spread;
                 met = room_meets(origin, direction);
+                // A pixel is as wide at the vessel as without it, and wider behind that.
+                fine *= passed.spread + inside.depth / max(met.way, 1e-3);
             }
         }
         let seen = room_light(origin, direction, met, through, fine);
         // A bent ray's way is no view depth.
         if (room && !wet && !empty) { reversed = near / seen.way; }
         colour = display(kept * seen.light + mirrored);
-        if (!room && !wet) { colour = BACKGROUND; }
+        if (!wet && met.way <= select(near, 0.0, empty)) { colour = BACKGROUND; }
         if (wet) {
             // Liquid shows them where it stands before them. They are no things of the room: where it mirrors or bends light of elsewhere
             // they would be dark blocks in it.

@@ -50,8 +50,9 @@ mod long {
 
     /// Water poured into acid boils more than acid into water at the preset's resolution, and it goes on boiling at the surface. Acid
     /// in water makes all of its steam while it falls in: from 3 s on, 1.5 s after the contact, it makes 1 mg at most, while water on
-    /// acid makes 47 to 97 mg within 2 s (`docs/measurements/bubbles.md`). So the ratio of their sums depends on when it is taken: it is
-    /// 1.5 to 2.9 at 5 s, while the wrong order boils, and 2.1 to 3.5 at 8 s, when what is left is evaporation. Until bubbles displaced
+    /// acid makes 47 to 97 mg within 2 s (`docs/measurements/bubbles.md`). So the ratio of their sums depends on when it is taken. At
+    /// `fast` five seeds of an H200 have 1.9 to 2.3 at 5 s, while the wrong order boils, and 2.2 to 2.7 at 8 s, when what is left is
+    /// evaporation. At 5 s this seed has 1.8 on two cores. Until bubbles displaced
     /// liquid it was ten: the coarse particles around a bubble averaged cold water in, and it died.
     #[test]
     fn water_into_acid_boils_and_acid_into_water_hardly_does() {

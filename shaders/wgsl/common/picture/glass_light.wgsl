@@ -1,12 +1,12 @@
 //! The vessels' glass, traced: surfaces of revolution whose outlines are segments, so that a ray meets
-//! cones, and what is printed on them. What is behind is seen where it is; liquid is bent by `through_wall.wgsl`.
+//! cones, and what is printed on them. Liquid and the room behind it are bent by `through_wall.wgsl`; all else is seen where it is.
 
 //!include common/picture/dew_light.wgsl
 //!include common/picture/frame.wgsl
+//!include common/picture/liquid_light.wgsl
 //!include common/picture/printed.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/shard.wgsl
-//!include common/picture/thickness_sums.wgsl
 //!include common/picture/tile_marks.wgsl
 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
@@ -15,8 +15,8 @@ const GLASS_REFLECTANCE = 0.036;
 const EDGE_OPACITY = 0.75;
 /// What it sends to the eye.
 const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
-/// What a rim sends to the eye: light that comes up along the wall, and has gone that far (m) through liquid that wets it. By the path tracer's picture
-/// of a beaker of acid.
+/// What a rim sends to the eye: light that comes up along the wall, and has gone that far (m) through liquid that wets it. Chosen so that
+/// the still `boil` of docs/measurements/rendering.md has the least FLIP of five pairs, whose FLIP differs by 0.0005.
 const RIM = vec3<f32>(0.36, 0.36, 0.36);
 const RIM_WAY = 0.045;
 /// Least cosine between a wall's normal and the way to the eye that counts.
@@ -133,12 +133,18 @@ fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> C
 
 /// What the rim of a vessel sends to the eye; of the liquid in it what is seen at its floor's middle counts.
 fn rim_light(index: u32, eye: u32) -> vec3<f32> {
+    let clear = frame.sky_level * RIM;
+    // A picture without liquid has no sums.
+    if (frame.spacing == 0.0) { return clear; }
     let m = frame.vessels[index].vessel_from_stage;
     let low = vec3<f32>(0.0, frame.vessels[index].inner_floor + frame.spacing, 0.0);
-    let clip = frame.views[eye].clip_from_stage * vec4<f32>((low - m[3].xyz) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz), 1.0);
-    let sums = thickness_at((0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent, eye);
-    let absorbs = mix(frame.water, frame.acid, saturate(sums.y / max(sums.x, 1e-9)));
-    return frame.sky_level * RIM * exp(-RIM_WAY * smoothstep(0.0, 2.0 * frame.spacing, sums.x) * absorbs);
+    let seen = pixel_of((low - m[3].xyz) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz), eye);
+    // Another vessel's liquid is nearer or further.
+    let apart = seen_at(vec2<i32>(floor(seen.xy)), eye).w - seen.z;
+    if (abs(apart) > 2.0 * frame.vessels[index].outer + frame.spacing) { return clear; }
+    let sums = thickness_at(seen.xy, eye);
+    let absorbs = mix(frame.water, frame.acid, share_of_acid(sums, 0.0));
+    return clear * exp(-RIM_WAY * smoothstep(0.0, 2.0 * frame.spacing, sums.x) * absorbs);
 }
 
 /// View depth of the middle of the nearest of the vessels in `bits`.

@@ -66,6 +66,9 @@ struct Wet {
     through: Through,
 }
 
+/// How much further than a base's outer face what it shows is taken to be.
+const BEHIND_FACE = 1.001;
+
 /// How far off the glass particles are whole, spacings: they lie half of one from it.
 const OFF_GLASS = 0.6;
 
@@ -116,7 +119,8 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     let lift = vec3<f32>(0.0, max(frame.spacing - entry.p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
     let lifted = pixel_of(inside.point + stage_from_vessel * lift, eye);
     let here = seen_at(vec2<i32>(floor(lifted.xy)), eye);
-    // Over the base it is hidden by what the same vessel has in front of it.
+    // Over the base it is hidden by what the same vessel has in front of it. A ray that comes up through that is so flat that the surface
+    // of shallow liquid mirrors it: it is in liquid as far as the wall.
     let hidden_by = select(frame.spacing, 2.0 * frame.vessels[inside.vessel].outer, inside.base);
     if (here.w <= 0.0 || here.w < lifted.z - hidden_by || here.w > lifted.z + frame.spacing) { return entry; }
     // How much there is is asked where particles are whole, too.
@@ -134,7 +138,8 @@ fn behind_wall(inside: Inside, eye: u32) -> Entry {
     entry.straight = length(sight) / seen.z * thickness.x;
     entry.filled = filled_along(inside.vessel, entry.p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, entry.straight);
     entry.mixing = striae_at(seen.xy, eye, thickness, seen.z, entry.straight);
-    entry.depth = -select(pixel_of(inside.point, eye).z, inside.depth, inside.base);
+    // What the base shows is behind its outer face, which mirrors too.
+    entry.depth = -select(pixel_of(inside.point, eye).z, BEHIND_FACE * inside.depth, inside.base);
     return entry;
 }
 
@@ -162,7 +167,8 @@ fn followed(entry: Entry, eye: u32) -> Wet {
     let aside = -0.5 * entry.mixing.way * turn;
     let begun = p + (frame.vessels[vessel].vessel_from_stage * vec4<f32>(aside, 0.0)).xyz;
     let way = way_through(vessel, entry.point + aside, begun, normalize(entry.within + turn), index, level);
-    // The bent ray goes elsewhere: to where it first turns half of it is as there, and from there on it is as where it comes out.
+    // The bent ray goes elsewhere: to where it first turns half of it is as there. From there on it is as where it comes out, or as there if
+    // that is more: acid sinks, and the eye's rays to both places have come through what lies over it.
     let there = thickness_at(pixel_of(way.turned, eye).xy, eye);
     let deep = share_of_acid(there, acid);
     let mixed = 0.5 * (acid + deep);

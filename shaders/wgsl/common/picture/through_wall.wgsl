@@ -1,5 +1,5 @@
 //! What an eye sees behind a vessel's wall: the ray is bent at the wall's outer face and at its inner one, so liquid is seen up to
-//! the glass's own outline, where n · r of it is more than that of the glass; through an empty vessel it is bent at the far wall again.
+//! the glass's own outline, where n · r of it is more than that of the glass; through an empty vessel's side the room is seen, bent at the far wall again.
 
 //!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
@@ -49,7 +49,7 @@ fn outer_radius(index: u32, y: f32) -> f32 {
 /// The outer surface's normal at p (vessel's frame), away from the glass.
 fn outward(index: u32, p: vec3<f32>) -> vec3<f32> {
     let below = clamp((frame.vessels[index].inner_floor - p.y) / frame.vessels[index].wall, 0.0, 1.0);
-    return -sqrt(1.0 - below * below) * inward(index, p) - vec3<f32>(0.0, below, 0.0);
+    return normalize(-sqrt(1.0 - below * below) * inward(index, p) - vec3<f32>(0.0, below, 0.0));
 }
 
 /// Through the first wall of a vessel in `bits` that the ray through the middle of a pixel meets from outside, nearer than view depth `end`.
