@@ -5,7 +5,7 @@
 use crate::liquid::{Liquid, draw, frame, rig, upright_cylinder};
 use crate::rig::{cylinder, displayed, linear, ray};
 use glam::{Affine3A, Quat, Vec3};
-use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
+use vitriol_render::{BoxDesc, Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Radius of the liquid, and of the glass, m.
@@ -159,6 +159,64 @@ fn an_empty_cylinder_moves_what_is_behind_it() {
     // A pixel is 0.25 mm wide there.
     assert!((found - bent).abs() < 2.5e-4, "{found} {bent}");
     assert!(straight - bent > 5e-3, "{straight} {bent}");
+}
+
+/// At b between its radii a ray meets the inner face of the same cylinder so flat that it is mirrored: it turns towards the axis by
+/// 2 (asin(b/R) − asin(b/nR)), away from it by π − 2 asin(b/nr), and leaves at b from it. A box that hangs behind is seen by it alone.
+#[test]
+fn the_inner_face_mirrors_near_the_outline() {
+    const GLASS: f64 = 1.47;
+    // The box's lower edge, over the axis and behind it, m.
+    const EDGE: [f64; 2] = [0.06, 0.1];
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let middle = FOOT + Vec3::Y * 0.034;
+    let low = middle + Vec3::new(-0.8, EDGE[0] as f32, -0.05 - EDGE[1] as f32);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
+        table: Some(BoxDesc {
+            min: low,
+            max: low + Vec3::new(1.6, 0.2, 0.05),
+        }),
+        furnished: false,
+        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
+    });
+    let eye = middle + Vec3::Z * 0.3;
+    let band = middle + Vec3::Y * 0.021;
+    let view = View::look_at(eye, band, Fov::symmetric(0.015, 4.0 / 3.0));
+    let level = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
+    let lies = Affine3A::from_rotation_translation(level, middle - Vec3::X * 0.025);
+    let picture = rig.draw(&FrameDesc {
+        vessels: &[lies],
+        ..FrameDesc::empty(&[view])
+    });
+    let red = |y: u32| linear(picture.colour[0][4 * (y * EXTENT[0] + EXTENT[0] / 2) as usize]);
+    let place = |y: u32| {
+        let along = ray(&view, EXTENT, EXTENT[0] / 2, y);
+        0.3 * along.y / along.y.hypot(along.z)
+    };
+    let step = |y: u32| (red(y + 1) - red(y)).abs();
+    let within = (0..EXTENT[1] - 1).filter(|&y| (0.0203..0.0218).contains(&place(y)));
+    let y = within.max_by(|&a, &b| step(a).total_cmp(&step(b))).unwrap();
+    let found = 0.5 * (place(y) + place(y + 1));
+
+    let height = |b: f64| {
+        let towards = 2.0 * ((b / OUTER).asin() - (b / (GLASS * OUTER)).asin());
+        let away = std::f64::consts::PI - 2.0 * (b / (GLASS * RADIUS)).asin();
+        let rises = (b / 0.3).asin() + away - towards;
+        let along = (EDGE[1] + b * rises.sin()) / rises.cos();
+        b * rises.cos() + along * rises.sin()
+    };
+    let expected = (0..1900).map(|n| 0.0201 + 1e-6 * f64::from(n));
+    let expected = expected
+        .min_by(|&a, &b| {
+            (height(a) - EDGE[0])
+                .abs()
+                .total_cmp(&(height(b) - EDGE[0]).abs())
+        })
+        .unwrap();
+    eprintln!("{found} m from the axis, {expected} expected");
+    // A pixel is 0.04 mm wide there.
+    assert!((found - expected).abs() < 6e-5, "{found} {expected}");
 }
 
 /// Seen from aside and above, the base's underside mirrors acid over it: what it shows has come through 20 mm of that and more. Water, whose index
