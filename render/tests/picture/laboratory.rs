@@ -161,15 +161,18 @@ fn numbers_and_labels_are_printed_at_their_heights() {
         let eye = foot + Vec3::new(0.0, height, 0.3);
         let view = look(eye, eye - Vec3::Z, 0.2);
         let desc = vessel(volumes.to_vec(), label.cloned());
-        rig.set_scene(&SceneDesc::laboratory(vec![desc], TOP, 1.0));
+        // Without furniture, whose edges glass bends: where they end at the print, smoothing draws them out over it.
+        rig.set_scene(&SceneDesc {
+            furnished: false,
+            ..SceneDesc::laboratory(vec![desc], TOP, 1.0)
+        });
         let frame = FrameDesc {
             vessels: &vessels,
             ..FrameDesc::empty(std::slice::from_ref(&view))
         };
         (view, rig.draw(&frame))
     };
-    // First and last column and row with that many changed pixels.
-    let changed = |a: &Picture, b: &Picture, least: usize| {
+    let changed = |a: &Picture, b: &Picture| {
         let differs = |index: &usize| {
             (0..3).any(|n| a.colour[0][4 * index + n].abs_diff(b.colour[0][4 * index + n]) > 12)
         };
@@ -179,17 +182,14 @@ fn numbers_and_labels_are_printed_at_their_heights() {
             .map(|index| [index % width, index / width])
             .collect();
         let ends = |axis: usize| {
-            let mut counts = vec![0; width];
-            places.iter().for_each(|place| counts[place[axis]] += 1);
-            let first = counts.iter().position(|&count| count >= least).unwrap();
-            let last = counts.iter().rposition(|&count| count >= least).unwrap();
-            [first, last].map(|end| end as f32 + 0.5)
+            let along = places.iter().map(|place| place[axis]);
+            [along.clone().min().unwrap(), along.max().unwrap()].map(|end| end as f32 + 0.5)
         };
         [ends(0), ends(1)]
     };
     let (view, without) = draw(0.05, &[], None);
     let (_, with) = draw(0.05, &volumes, None);
-    let [across, down] = changed(&with, &without, 1);
+    let [across, down] = changed(&with, &without);
     let at = |angle: f32, height: f32| {
         let out = Vec3::new(radius * angle.sin(), height, radius * angle.cos());
         seen(&view, foot + out)
@@ -210,9 +210,7 @@ fn numbers_and_labels_are_printed_at_their_heights() {
 
     let (view, without) = draw(0.065, &[], None);
     let (_, with) = draw(0.065, &[], Some(&label));
-    // A row counts where 8 of the label's 125 columns changed: where glass bends an edge of the room behind the label's, smoothing draws three
-    // columns out by three rows.
-    let [_, down] = changed(&with, &without, 8);
+    let [_, down] = changed(&with, &without);
     let at = |height: f32| {
         let out = Vec3::new(radius * -0.7_f32.sin(), height, radius * 0.7_f32.cos());
         seen(&view, foot + out)[1]

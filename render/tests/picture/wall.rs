@@ -3,7 +3,7 @@
 //! own outline.
 
 use crate::liquid::{Liquid, draw, frame, rig, upright_cylinder};
-use crate::rig::{cylinder, displayed, linear, ray};
+use crate::rig::{Rig, cylinder, displayed, linear, ray};
 use glam::{Affine3A, Quat, Vec3};
 use vitriol_render::{BoxDesc, Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
 
@@ -12,6 +12,8 @@ const EXTENT: [u32; 2] = [320, 240];
 const RADIUS: f64 = 0.02;
 const OUTER: f64 = 0.022;
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
+/// Refractive index of borosilicate glass.
+const GLASS: f64 = 1.47;
 /// Refractive index of water at 20 °C, and of sulfuric acid of 98 %.
 const INDICES: [f64; 2] = [1.333, 1.4305];
 /// Share that 60 mm let through of red, and of blue light.
@@ -103,23 +105,44 @@ fn a_stream_along_a_wall_is_as_light_as_it_is_thin() {
     assert!(100 * dark < seen, "{dark} of {seen}");
 }
 
+/// A room without furniture, with that many cylinders and a bench, or `table` in its place.
+fn in_a_room(vessels: usize, table: Option<BoxDesc>) -> Rig {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let scene = SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0);
+    rig.set_scene(&SceneDesc {
+        vessels: (0..vessels)
+            .map(|_| cylinder([RADIUS, OUTER], 0.002, 0.05))
+            .collect(),
+        table: table.or(scene.table),
+        furnished: false,
+        ..scene
+    });
+    rig
+}
+
+/// The cylinder level across the line of sight, with its axis' middle there.
+fn level(middle: Vec3) -> Affine3A {
+    let turned = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
+    Affine3A::from_rotation_translation(turned, middle - Vec3::X * 0.025)
+}
+
+/// The value from `from` on, within 2 mm, for which `missed` is least, to 1 µm.
+fn least(from: f64, missed: impl Fn(f64) -> f64) -> f64 {
+    let places = (0..2000).map(|n| from + 1e-6 * f64::from(n));
+    places
+        .min_by(|&a, &b| missed(a).total_cmp(&missed(b)))
+        .unwrap()
+}
+
 /// An empty cylinder, level and across the line of sight: the bench's far edge is seen through it moved towards its axis, by Bouguer's law. At
 /// b from the axis a ray is turned away from that by 2 (asin(b/r) − asin(b/nr) − asin(b/R) + asin(b/nR)), and leaves at b from it.
 #[test]
 fn an_empty_cylinder_moves_what_is_behind_it() {
-    const GLASS: f64 = 1.47;
     const HIGH: f64 = 0.034;
-    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
-        furnished: false,
-        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
-    });
+    let rig = in_a_room(1, None);
     let eye = FOOT + Vec3::new(0.0, HIGH as f32, 0.3);
     let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.1, 4.0 / 3.0));
     let middle = FOOT + Vec3::Y * HIGH as f32;
-    let level = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
-    let lies = Affine3A::from_rotation_translation(level, middle - Vec3::X * 0.025);
     // The bench ends 0.38 m behind the axis.
     let missed = |b: f64, turned: f64| {
         let fall = (b / 0.3).asin() + turned;
@@ -134,27 +157,17 @@ fn an_empty_cylinder_moves_what_is_behind_it() {
         let along = ray(&view, EXTENT, EXTENT[0] / 2, y);
         0.3 * -along.y / along.y.hypot(along.z)
     };
-    let edge = |vessel: Affine3A| {
-        let picture = rig.draw(&FrameDesc {
-            vessels: &[vessel],
-            ..FrameDesc::empty(&[view])
-        });
-        let red = |y: u32| linear(picture.colour[0][4 * (y * EXTENT[0] + EXTENT[0] / 2) as usize]);
-        let step = |y: u32| (red(y + 1) - red(y)).abs();
-        let inside = (EXTENT[1] / 2..EXTENT[1] - 1).filter(|&y| row(y) < 0.8 * RADIUS);
-        let y = inside.max_by(|&a, &b| step(a).total_cmp(&step(b))).unwrap();
-        0.5 * (row(y) + row(y + 1))
-    };
-    let expected = |turned: &dyn Fn(f64) -> f64| {
-        let places = (0..16_000).map(|n| 1e-6 * f64::from(n));
-        let found = places.min_by(|&a, &b| {
-            let [a, b] = [a, b].map(|b| missed(b, turned(b)).abs());
-            a.total_cmp(&b)
-        });
-        found.unwrap()
-    };
-    let (bent, straight) = (expected(&turned), expected(&|_| 0.0));
-    let found = edge(lies);
+    let picture = rig.draw(&FrameDesc {
+        vessels: &[level(middle)],
+        ..FrameDesc::empty(&[view])
+    });
+    let red = |y: u32| linear(picture.colour[0][4 * (y * EXTENT[0] + EXTENT[0] / 2) as usize]);
+    let step = |y: u32| (red(y + 1) - red(y)).abs();
+    let inside = (EXTENT[1] / 2..EXTENT[1] - 1).filter(|&y| row(y) < 0.8 * RADIUS);
+    let y = inside.max_by(|&a, &b| step(a).total_cmp(&step(b))).unwrap();
+    let found = 0.5 * (row(y) + row(y + 1));
+    let bent = least(0.0085, |b| missed(b, turned(b)).abs());
+    let straight = least(0.014, |b| missed(b, 0.0).abs());
     eprintln!("{found} m from the axis, {bent} expected, {straight} without it");
     // A pixel is 0.25 mm wide there.
     assert!((found - bent).abs() < 2.5e-4, "{found} {bent}");
@@ -165,28 +178,17 @@ fn an_empty_cylinder_moves_what_is_behind_it() {
 /// 2 (asin(b/R) − asin(b/nR)), away from it by π − 2 asin(b/nr), and leaves at b from it. A box that hangs behind is seen by it alone.
 #[test]
 fn the_inner_face_mirrors_near_the_outline() {
-    const GLASS: f64 = 1.47;
-    // The box's lower edge, over the axis and behind it, m.
-    const EDGE: [f64; 2] = [0.06, 0.1];
-    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    // The lower edge of the box at the back, over the axis and behind it, m: what rises past it sees the wall.
+    const EDGE: [f64; 2] = [0.06, 0.15];
     let middle = FOOT + Vec3::Y * 0.034;
-    let low = middle + Vec3::new(-0.8, EDGE[0] as f32, -0.05 - EDGE[1] as f32);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
-        table: Some(BoxDesc {
-            min: low,
-            max: low + Vec3::new(1.6, 0.2, 0.05),
-        }),
-        furnished: false,
-        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
-    });
+    let low = middle + Vec3::new(-0.8, EDGE[0] as f32, -EDGE[1] as f32);
+    let max = low + Vec3::new(1.6, 0.2, 0.05);
+    let rig = in_a_room(1, Some(BoxDesc { min: low, max }));
     let eye = middle + Vec3::Z * 0.3;
     let band = middle + Vec3::Y * 0.021;
     let view = View::look_at(eye, band, Fov::symmetric(0.015, 4.0 / 3.0));
-    let level = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
-    let lies = Affine3A::from_rotation_translation(level, middle - Vec3::X * 0.025);
     let picture = rig.draw(&FrameDesc {
-        vessels: &[lies],
+        vessels: &[level(middle)],
         ..FrameDesc::empty(&[view])
     });
     let red = |y: u32| linear(picture.colour[0][4 * (y * EXTENT[0] + EXTENT[0] / 2) as usize]);
@@ -206,14 +208,7 @@ fn the_inner_face_mirrors_near_the_outline() {
         let along = (EDGE[1] + b * rises.sin()) / rises.cos();
         b * rises.cos() + along * rises.sin()
     };
-    let expected = (0..1900).map(|n| 0.0201 + 1e-6 * f64::from(n));
-    let expected = expected
-        .min_by(|&a, &b| {
-            (height(a) - EDGE[0])
-                .abs()
-                .total_cmp(&(height(b) - EDGE[0]).abs())
-        })
-        .unwrap();
+    let expected = least(0.0201, |b| (height(b) - EDGE[0]).abs());
     eprintln!("{found} m from the axis, {expected} expected");
     // A pixel is 0.04 mm wide there.
     assert!((found - expected).abs() < 6e-5, "{found} {expected}");
@@ -223,12 +218,7 @@ fn the_inner_face_mirrors_near_the_outline() {
 /// is less, would be hidden by what glass mirrors at so flat an angle.
 #[test]
 fn a_base_shows_the_liquid_over_it() {
-    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
-        furnished: false,
-        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
-    });
+    let rig = in_a_room(1, None);
     let target = FOOT + Vec3::new(0.0, 0.0018, OUTER as f32);
     let view = View::look_at(
         target + Vec3::new(0.0, 0.16, 0.28),
@@ -258,12 +248,7 @@ fn a_base_shows_the_liquid_over_it() {
 /// Blue over red of a liquid with that acid by height (m over the floor), over that of an empty vessel, about where `target` is seen from aside and
 /// above: the mean of 5 × 5 pixels.
 fn yellowness(target: Vec3, acid: impl Fn(f32) -> f32) -> f64 {
-    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    rig.set_scene(&SceneDesc {
-        vessels: vec![cylinder([RADIUS, OUTER], 0.002, 0.05)],
-        furnished: false,
-        ..SceneDesc::laboratory(Vec::new(), FOOT.y, 1.0)
-    });
+    let rig = in_a_room(1, None);
     let places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 12);
     let eye = target + Vec3::new(0.0, 0.2, 0.28);
     let view = View::look_at(eye, target, Fov::symmetric(0.15, 4.0 / 3.0));
@@ -304,4 +289,24 @@ fn a_rim_has_the_colour_of_the_liquid() {
     let [water, acid] = [0.0, 1.0].map(|acid| yellowness(target, |_| acid));
     eprintln!("{water} {acid}");
     assert!(water > 1.4 && acid < 0.6, "{water} {acid}");
+}
+
+/// An empty vessel's rim is grey, though a full one stands before its floor.
+#[test]
+fn a_rim_has_no_colour_of_another_vessel() {
+    let rig = in_a_room(2, None);
+    let places = upright_cylinder(FOOT + Vec3::Y * 0.002, 0.0193, 12);
+    let behind = FOOT - Vec3::Z * 0.05;
+    // The way from the eye to the empty one's floor goes through the liquid, which is 30 mm deep.
+    let target = behind + Vec3::new(0.0, 0.05, 0.5 * (RADIUS + OUTER) as f32);
+    let eye = target + Vec3::new(0.0, 0.2, 0.28);
+    let view = View::look_at(eye, target, Fov::symmetric(0.15, 4.0 / 3.0));
+    let vessels = [FOOT, behind].map(Affine3A::from_translation);
+    let mut liquid = Liquid::new(&rig, &places, |_| 1.0);
+    liquid.table = None;
+    let (picture, _) = draw(&rig, &frame(&[view], &vessels, &liquid));
+    let pixel = 4 * (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
+    let [red, blue] = [0, 2].map(|channel| linear(picture.colour[0][pixel + channel]));
+    eprintln!("{red} of red, {blue} of blue");
+    assert!(blue > 0.9 * red, "{red} {blue}");
 }

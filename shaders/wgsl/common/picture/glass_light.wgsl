@@ -139,9 +139,10 @@ fn rim_light(index: u32, eye: u32) -> vec3<f32> {
     let m = frame.vessels[index].vessel_from_stage;
     let low = vec3<f32>(0.0, frame.vessels[index].inner_floor + frame.spacing, 0.0);
     let seen = pixel_of((low - m[3].xyz) * mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz), eye);
-    // Another vessel's liquid is nearer or further.
-    let apart = seen_at(vec2<i32>(floor(seen.xy)), eye).w - seen.z;
-    if (abs(apart) > 2.0 * frame.vessels[index].outer + frame.spacing) { return clear; }
+    // What is seen there may be another vessel's.
+    let here = seen_at(vec2<i32>(floor(seen.xy)), eye);
+    let met = (m * vec4<f32>(frame.views[eye].eye + here.xyz, 1.0)).xyz;
+    if (here.w <= 0.0 || length(met.xz) > frame.vessels[index].outer) { return clear; }
     let sums = thickness_at(seen.xy, eye);
     let absorbs = mix(frame.water, frame.acid, share_of_acid(sums, 0.0));
     return clear * exp(-RIM_WAY * smoothstep(0.0, 2.0 * frame.spacing, sums.x) * absorbs);

@@ -139,5 +139,7 @@ fn out_of_vessel(inside: Inside) -> Passed {
         turns = turns_with(radius, dot(through, inner), facing) - outer_turns;
     }
     let outer = at + out_of_cylinder(at, in_glass, vessel_radius(index, at.y) + frame.vessels[index].wall) * in_glass;
-    return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * refract(in_glass, inward(index, outer), GLASS_INDEX), 1.0 + 2.0 * inside.depth * abs(turns));
+    let out = refract(in_glass, inward(index, outer), GLASS_INDEX);
+    // It turns as much at either wall.
+    return Passed(stage_from_vessel * (outer - m[3].xyz), stage_from_vessel * out, 1.0 + 2.0 * inside.depth * abs(turns));
 }
